@@ -2,10 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <regex>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
@@ -14,7 +14,7 @@
 #include "core/names.hpp"
 #include "core/quoting.hpp"
 #include "core/resumable.hpp"
-#include "export/filled.hpp"
+#include "export/export_job.hpp"
 
 namespace recoil {
 
@@ -137,25 +137,11 @@ std::string clock_time(long seconds) {
 }
 
 /// "01:30:00" [s]; nullopt for any other text.
-std::optional<long> seconds_named(std::string_view text) {
-  const auto number = [](std::string_view digits) -> std::optional<long> {
-    long value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto read = std::from_chars(digits.data(), end, value);
-    if (digits.empty() || digits.size() > 4 || read.ec != std::errc{} || read.ptr != end ||
-        value < 0) {
-      return std::nullopt;
-    }
-    return value;
-  };
-  if (text.size() < 7 || text[text.size() - 3] != ':' || text[text.size() - 6] != ':') {
-    return std::nullopt;
-  }
-  const auto hours = number(text.substr(0, text.size() - 6));
-  const auto minutes = number(text.substr(text.size() - 5, 2));
-  const auto seconds = number(text.substr(text.size() - 2));
-  if (!hours || !minutes || !seconds || *minutes > 59 || *seconds > 59) return std::nullopt;
-  return 3600 * *hours + 60 * *minutes + *seconds;
+std::optional<long> seconds_named(const std::string& text) {
+  static const std::regex clock("([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])");
+  std::smatch part;
+  if (!std::regex_match(text, part, clock)) return std::nullopt;
+  return 3600 * std::stol(part[1]) + 60 * std::stol(part[2]) + std::stol(part[3]);
 }
 
 /// The scripts of a job, to be read and edited.
@@ -318,9 +304,7 @@ void add_cluster(Program& program) {
   command.option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
       .required()
       .one_of(all_names<ClusterSystem>());
-  command.option("--shards", flags->shards, "how many")
-      .required()
-      .within(std::size_t{1}, most_shards);
+  command.option("--shards", flags->shards, "how many").required().within(1, most_shards);
   command.option("--out", flags->out, "folder for scripts, parts and results")
       .required()
       .takes("DIR");

@@ -1,21 +1,17 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
-#include "cli/shard_flags.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/rates.hpp"
-#include "plot/draw.hpp"
-#include "report/diagnosis_sections.hpp"
+#include "report/diagnosis_report.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {
@@ -113,7 +109,6 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   std::optional<Claim> claim;
   if (!flags.out.empty()) {
     require_free({folder / "extended.toml"});
-    plot::require_gnuplot();
     claim.emplace(result_in(folder));
   }
   DiagnosisOptions options = flags.options(inputs.spec);
@@ -164,10 +159,8 @@ void add_diagnose(Program& program) {
   add_fit_file(command, flags->fit);
   command.option("--out", flags->out, "folder for the results (default: nothing is written)")
       .takes("DIR");
-  command.option("--threads", flags->threads, "threads to use (default: all cores)")
-      .within(1, 4096);
-  command.option("--seed", flags->seed, "seed of the simulated data sets (default: the fit file's)")
-      .within(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  add_threads(command, flags->threads);
+  add_seed(command, flags->seed, "the simulated data sets");
   command
       .option("--rates", flags->rates,
               "also find what these points could have shown: so many data sets are simulated and "

@@ -6,20 +6,15 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "estimate/restitution_summary.hpp"
-#include "export/fluent.hpp"
-#include "export/lammps.hpp"
-#include "export/liggghts.hpp"
-#include "export/openfoam.hpp"
+#include "export/files.hpp"
 #include "export/table.hpp"
-#include "export/yade.hpp"
-#include "json/fitted_values.hpp"
+#include "json/fit_file.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_export.hpp"
 
@@ -256,7 +251,7 @@ void add_export(Program& program) {
       .option("--diameter", options->diameter,
               "sphere diameter [um] (default: the middle one of the dataset; openfoam, fluent and "
               "table: all)")
-      .number("diameter", 1e-3, 1e6);
+      .within(1e-3, 1e6, "diameter");
   command
       .option("--velocity", options->velocity,
               "range of incident velocities MIN,MAX [m/s], for errors, tables and time steps "
@@ -264,7 +259,7 @@ void add_export(Program& program) {
       .list()
       .values(2, 2)
       .takes("MIN,MAX")
-      .number("velocity", 1e-7, 1e4);
+      .within(1e-7, 1e4, "velocity");
   command.flag("--stock", options->stock,
                "lammps, yade (liggghts always): write the nearest of the program's own "
                "contact models, for many spheres, even where it could run the force law");

@@ -5,11 +5,9 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
-#include "cli/shard_flags.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
-#include "report/fit_sections.hpp"
+#include "report/fit_report.hpp"
 #include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"

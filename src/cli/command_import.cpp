@@ -11,7 +11,6 @@
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
-#include "report/dataset_page.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {
@@ -195,7 +194,7 @@ void add_import(Program& program) {
       .within(0.0, limits::pressure.upper);
   command.option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
       .within(limits::temperature.lower, limits::temperature.upper);
-  command.option("--fps", r.fps, "frames per second of a track").number("fps", 1e-3, 1e9);
+  command.option("--fps", r.fps, "frames per second of a track").within(1e-3, 1e9, "fps");
   command.option("--scale", r.scale,
                  "length of a pixel of a track: 0.4mm (default: the fall under gravity gives it)");
   command.option("--method", r.method, "how velocities were measured (default: by the format)")

@@ -8,7 +8,6 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -20,7 +19,7 @@
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"
 #include "experiment/import_table.hpp"
-#include "json/fitted_values.hpp"
+#include "json/fit_file.hpp"
 
 namespace recoil {
 namespace {
@@ -129,8 +128,8 @@ std::string example_points(const Dataset& dataset, double diameter) {
   return csv;
 }
 
-/// Files that are gone at the end unless they are told to stay: half of them
-/// would be in the way of the next try.
+/// Files that are removed at the end unless `stay` was called: half of them would be in the way of
+/// the next try.
 class NewFiles {
  public:
   explicit NewFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
@@ -239,7 +238,7 @@ void add_init(Program& program) {
                  "the surface, in the same form; its density may be left out");
   command.option("--like", options->like, "take the materials of this dataset").takes("DIR");
   command.option("--diameter", options->diameter, "diameter of all spheres [um]")
-      .number("diameter", 1e-3, 1e6);
+      .within(1e-3, 1e6, "diameter");
   command.runs([options] { run_init(*options); });
 }
 

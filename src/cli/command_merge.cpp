@@ -69,8 +69,7 @@ void add_merge(Program& program) {
   command.option("DIR", flags->folder, "the folder of the parts").required();
   command.flag("--missing", flags->missing,
                "only print which shards are missing, as --array=3,7-9; nothing when none is");
-  command.option("--threads", flags->threads, "threads to use (default: all cores)")
-      .within(1, 4096);
+  add_threads(command, flags->threads);
   command.runs([flags] { merge(*flags); });
 }
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -17,8 +17,7 @@
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"
 #include "plot/draw.hpp"
-#include "report/experiment_figures.hpp"
-#include "report/pairing_document.hpp"
+#include "report/pairing_report.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
@@ -26,8 +25,6 @@ namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double degree = M_PI / 180.0;
 
 struct PairCommand {
   std::string events;
@@ -40,16 +37,9 @@ struct PairCommand {
   std::vector<std::string> units;
   std::vector<std::string> columns;
   std::string positive = "towards";
-  double height_mm = 1.0;
-  bool keep_height = false;
   bool replace = false;
   bool json = false;
-  double threshold = -1.0;
-  double angle_degrees = -1.0;
-  double lost_share = -1.0;
-  std::vector<double> size_edges_um;
-  PairingOptions pairing;
-  AverageOptions averaging;
+  PairArguments arguments;
 };
 
 /// FIELD=VALUE pairs as given on the command line.
@@ -71,24 +61,13 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
   return result;
 }
 
-void resolve(PairCommand& command) {
-  PairingOptions& pairing = command.pairing;
-  pairing.height = command.height_mm * units::mm;
-  pairing.refine = !command.keep_height;
-  if (command.threshold >= 0.0) pairing.threshold = command.threshold;
-  if (command.angle_degrees >= 0.0) pairing.angle = command.angle_degrees * degree;
-  if (command.lost_share >= 0.0) pairing.lost_share = command.lost_share;
-  for (const double edge : command.size_edges_um) {
-    if (!command.averaging.size_edges.empty() &&
-        edge * units::um <= command.averaging.size_edges.back()) {
-      throw InputError({}, "--size-edges do not ascend", "",
-                       "write for example --size-edges 20,40,60,110");
-    }
-    command.averaging.size_edges.push_back(edge * units::um);
+void require_ascending(const std::vector<double>& edges) {
+  const char* const advice = "write for example --size-edges 20,40,60,110";
+  if (std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>()) != edges.end()) {
+    throw InputError({}, "--size-edges do not ascend", "", advice);
   }
-  if (command.averaging.size_edges.size() == 1) {
-    throw InputError({}, "--size-edges has one value only", "a class has two limits",
-                     "write for example --size-edges 20,40,60,110");
+  if (edges.size() == 1) {
+    throw InputError({}, "--size-edges has one value only", "a class has two limits", advice);
   }
 }
 
@@ -115,17 +94,9 @@ Provenance provenance_of(const PairCommand& command, const PassageTable& table) 
   return *provenance;
 }
 
-std::string remark_of(const PairCommand& command, const PassageTable& table) {
-  const auto provenance = stated_provenance(command, table);
-  const std::string file = fs::path(table.file).filename().string();
-  return !provenance || *provenance == Provenance::measured
-             ? file
-             : fmt::format("{}: {}", file, to_string(*provenance));
-}
-
 /// Do the points get the distribution of their sizes beside them? Size classes need none.
 bool has_mixed_sizes(const PairCommand& command) {
-  return command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
+  return command.arguments.size_edges.size() <= 2 && command.arguments.size_classes == 1;
 }
 
 void add_dataset(const PairCommand& command, const PassageTable& table, const PairingResult& pairs,
@@ -151,15 +122,9 @@ void add_dataset(const PairCommand& command, const PassageTable& table, const Pa
   }
 }
 
-void add_histograms(const PairCommand& command, const PassageTable& table,
-                    const PairedPassages& paired, std::vector<WholeFile>& files) {
-  const fs::path folder = command.histograms;
-  const Distributions shown = distributions(table, paired.pairs);
+void add_histograms(const fs::path& folder, const Distributions& shown,
+                    std::vector<WholeFile>& files) {
   for (const auto& [name, text] : histogram_files(shown)) files.push_back({folder / name, text});
-  for (const plot::Picture& picture :
-       experiment_pictures(shown, paired.averages, remark_of(command, table))) {
-    files.push_back({folder / (picture.name + ".svg"), plot::draw_svg(picture)});
-  }
 }
 
 /// The files whose names are known before the work.
@@ -174,7 +139,7 @@ std::vector<fs::path> outputs_of(const PairCommand& command) {
 }
 
 void run_pair(PairCommand command) {
-  resolve(command);
+  require_ascending(command.arguments.size_edges);
   for (const std::string& folder : {command.into, command.histograms}) {
     if (!folder.empty()) require_writable_folder(folder);
   }
@@ -182,18 +147,16 @@ void run_pair(PairCommand command) {
     if (file.empty()) continue;
     require_writable_folder(fs::absolute(file).parent_path());
   }
-  const PassageFormat format = {assignments(command.units, "--unit"),
-                                assignments(command.columns, "--column"),
-                                command.positive == "away"};
-  const PassageTable table = read_passages(command.events, format);
+  const PassageTable table = read_passages(
+      command.events, {assignments(command.units, "--unit"),
+                       assignments(command.columns, "--column"), command.positive == "away"});
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
   const std::vector<fs::path> outputs = outputs_of(command);
   const Replacing replacing = command.replace ? Replacing::data : Replacing::results;
   require_free(outputs, replacing);
-  if (!command.histograms.empty()) plot::require_gnuplot();
   std::optional<Claim> claim;
   if (!outputs.empty()) claim.emplace(outputs.front());
-  const PairRequest request = {command.events, command.pairing, command.averaging};
+  const PairRequest request = command.arguments.request(command.events);
   const PairedPassages paired = pair_and_average(table, request);
   const PairingResult& pairs = paired.pairs;
   const Averages& averages = paired.averages;
@@ -205,7 +168,9 @@ void run_pair(PairCommand command) {
   if (!command.into.empty()) add_dataset(command, table, pairs, points, files);
   if (!command.out.empty()) files.push_back({command.out, points});
   if (!command.impacts.empty()) files.push_back({command.impacts, impacts_csv(table, pairs)});
-  if (!command.histograms.empty()) add_histograms(command, table, paired, files);
+  if (!command.histograms.empty()) {
+    add_histograms(command.histograms, distributions(table, pairs), files);
+  }
   write_whole_files(files, replacing);
 }
 
@@ -228,38 +193,38 @@ void add_input_options(const Command& app, PairCommand& command) {
 }
 
 void add_search_options(const Command& app, PairCommand& command) {
-  app.option("--height", command.height_mm,
+  app.option("--height", command.arguments.height,
              "first estimate of the probe plane's height above the surface [mm]")
       .shows_default()
       .within(1e-3, 1e3);
-  app.option("--height-range", command.pairing.height_range,
+  app.option("--height-range", command.arguments.height_range,
              "the true height lies within this factor of the first estimate")
       .shows_default()
       .within(1.01, 10.0);
-  app.flag("--keep-height", command.keep_height, "take --height as it is");
+  app.flag("--keep-height", command.arguments.keep_height, "take --height as it is");
   app.option(
-         "--diameter-tolerance", command.pairing.diameter_tolerance,
+         "--diameter-tolerance", command.arguments.diameter_tolerance,
          "largest relative difference of the diameters of one sphere; within it the data decide")
       .shows_default()
       .within(1e-3, 2.0);
   app.option(
-         "--velocity-tolerance", command.pairing.velocity_tolerance,
+         "--velocity-tolerance", command.arguments.velocity_tolerance,
          "largest relative difference between a rebound and its return; within it the data decide")
       .shows_default()
       .within(1e-3, 0.5);
 }
 
 void add_selection_options(const Command& app, PairCommand& command) {
-  app.flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
-  app.option("--threshold", command.threshold,
+  app.flag("--keep-later", command.arguments.keep_later, "use second and third impacts as well");
+  app.option("--threshold", command.arguments.threshold,
              "leave out incident velocities below this [m/s, at the plane], the paper's way to "
              "remove second impacts; the effect of the selection is printed")
       .within(0.0, 1e4);
-  app.option("--angle", command.angle_degrees,
+  app.option("--angle", command.arguments.angle,
              "use only rebounds within this angle of the normal [degrees]; the paper: 8. Needs "
              "tangential_velocity")
       .within(0.0, 90.0);
-  app.option("--lost-share", command.lost_share,
+  app.option("--lost-share", command.arguments.lost_share,
              "share of rebounds that the instrument misses (default: the share of rebounds that it "
              "did not see on their way down)")
       .within(0.0, 0.9);
@@ -276,27 +241,27 @@ void add_output_options(const Command& app, PairCommand& command) {
   app.option("--provenance", command.provenance,
              "where the passages come from, if no datapackage.json beside them says so")
       .one_of(all_names<Provenance>());
-  app.option("--per-bin", command.averaging.per_bin, "approximate number of impacts in one point")
+  app.option("--per-bin", command.arguments.per_bin, "approximate number of impacts in one point")
       .shows_default()
       .within(2, 1000000);
   const Option classes =
-      app.option("--size-classes", command.averaging.size_classes,
+      app.option("--size-classes", command.arguments.size_classes,
                  "number of size classes with equally many spheres, each a series of points")
           .shows_default()
           .within(1, 100);
   app.option(
-         "--size-edges", command.size_edges_um,
+         "--size-edges", command.arguments.size_edges,
          "limits of the size classes [um], e.g. 20,40,60,110; spheres outside them are left out")
       .list()
       .excludes(classes)
-      .number("diameter", 1e-3, 1e6);
+      .within(1e-3, 1e6, "diameter");
   app.option("--impacts", command.impacts,
              "write every impact and every passage without one here (CSV)");
-  app.flag("--mean-diameter", command.averaging.mean_diameter,
+  app.flag("--mean-diameter", command.arguments.mean_diameter,
            "give every point the mean diameter of all spheres of its series and size class (d10, "
            "as the paper's points) instead of that of its own impacts");
   app.option("--histograms", command.histograms,
-             "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
+             "write histograms and size distributions (CSV) into this folder");
   app.flag("--replace", command.replace, "replace a points.csv or dataset that is there already");
   add_json_flag(app, command.json);
 }

@@ -8,19 +8,16 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
-#include "json/fitted_values.hpp"
+#include "json/fit_file.hpp"
 #include "plan/experiment_plan.hpp"
-#include "plot/draw.hpp"
+#include "plot/plot.hpp"
 #include "predict/simulated_impact.hpp"
-#include "report/figures_plan.hpp"
-#include "report/plan_document.hpp"
-#include "report/plan_files.hpp"
+#include "report/plan_report.hpp"
 
 namespace recoil {
 namespace {
@@ -108,7 +105,6 @@ void run_plan(PlanFlags flags) {
   std::optional<Claim> claim;
   if (!flags.out.empty()) {
     require_free(forms, replacing);
-    plot::require_gnuplot();
     claim.emplace(fs::path(flags.out) / "plan.json");
   }
   const std::vector<Dataset> planned = datasets_to_plan(datasets, flags.plan.diameters);
@@ -127,9 +123,6 @@ void run_plan(PlanFlags flags) {
   if (!flags.out.empty()) {
     const fs::path out = flags.out;
     std::vector<WholeFile> files;
-    for (const Figure& figure : plan_figures(plan)) {
-      files.push_back({out / (figure.picture.name + ".svg"), plot::draw_svg(figure.picture)});
-    }
     for (std::size_t d = 0; d < forms.size(); ++d) {
       files.push_back({forms[d], csv_points_to_make(plan, d)});
     }
@@ -145,7 +138,7 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
     command
         .option(
             "--" + name, [flags, name](double value) { flags->assumed[name] = value; }, help)
-        .number(name, 0.0, most);
+        .within(0.0, most, name);
   };
   parameter("C_H", "assume this damping of the contact [s/m] (default: the fit file's start)", 1e6);
   parameter("C_A", "assume this damping of the adhesion [s/m] (default: the fit file's start)",
@@ -163,18 +156,18 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
       .option("--scatter", flags->plan.scatter,
               "standard deviation of the e of one impact, relative to e")
       .shows_default()
-      .number("scatter", 0.0, 1.0);
+      .within(0.0, 1.0, "scatter");
   command
       .option("--floor", flags->plan.floor,
               "the part of that standard deviation that does not depend on e")
       .shows_default()
-      .number("standard deviation", 1e-6, 1.0);
+      .within(1e-6, 1.0, "standard deviation");
   command
       .option("--spread", flags->plan.spread,
               "relative standard deviation of the capture velocity from impact to impact; 0: below "
               "it every sphere stays, above it none")
       .shows_default()
-      .number("spread", 0.0, 0.5);
+      .within(0.0, 0.5, "spread");
 }
 
 }  // namespace
@@ -188,7 +181,7 @@ void add_plan(Program& program) {
       "with the fewest impacts, and which errors to expect. The plan is best where its "
       "assumptions\n"
       "hold: make it again with --parameters once there are first results. With --out it writes\n"
-      "plan.html (a page to read), plan.json, pictures and points.csv, to be filled in.\n\n"
+      "plan.html (a page to read), plan.json and points.csv, to be filled in.\n\n"
       "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
       "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
       "      --out my-plan");
@@ -201,18 +194,18 @@ void add_plan(Program& program) {
       .list()
       .values(2, 2)
       .takes("MIN,MAX")
-      .number("velocity", velocity_limits.first, velocity_limits.second);
+      .within(velocity_limits.first, velocity_limits.second, "velocity");
   command
       .option("--diameter", flags->diameters,
               "sphere diameters that there are [um], e.g. 2,5,10 (default: those of the points)")
       .list()
       .takes("D,D,...")
-      .number("diameter", diameter_limits_um.first, diameter_limits_um.second);
+      .within(diameter_limits_um.first, diameter_limits_um.second, "diameter");
   command
       .option("--error", flags->plan.error,
               "wanted standard error of every free parameter and capture velocity, relative")
       .shows_default()
-      .number("error", 1e-4, 1.0);
+      .within(1e-4, 1.0, "error");
   command
       .option(
           "--impacts", flags->plan.impacts,
@@ -225,7 +218,7 @@ void add_plan(Program& program) {
       .option("--checks", flags->plan.checks,
               "share of the points that are spread evenly, to show a wrong model")
       .shows_default()
-      .number("share", 0.0, 1.0);
+      .within(0.0, 1.0, "share");
   add_assumptions(command, flags);
   command.option("--out", flags->out, "folder for the files (default: nothing is written)")
       .takes("DIR");

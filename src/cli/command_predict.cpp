@@ -5,14 +5,12 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "plot/draw.hpp"
-#include "report/prediction_files.hpp"
-#include "report/prediction_page.hpp"
+#include "report/prediction_report.hpp"
 
 namespace recoil {
 namespace {
@@ -38,7 +36,6 @@ void predict_sizes(const PredictOptions& options) {
   std::optional<Claim> claim;
   if (!options.out.empty()) {
     require_free({out / "predict.csv", out / "predict.json"});
-    plot::require_gnuplot();
     claim.emplace(out / "predict.json");
   }
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
@@ -57,16 +54,11 @@ void predict_sizes(const PredictOptions& options) {
   const std::string result = json_prediction(analysis, mixture);
   const std::string printed = options.json ? result : text_prediction(analysis, mixture);
   if (!options.out.empty()) {
-    std::vector<WholeFile> files;
-    for (const Figure& figure : mixture_figures(analysis, mixture)) {
-      const std::string& name = figure.picture.name;  // "mixture-sizes-1"
-      const std::string part = name.substr(name.find('-') + 1);
-      files.push_back({out / fmt::format("predict-{}.svg", part.substr(0, part.find('-'))),
-                       plot::draw_svg(figure.picture)});
-    }
-    files.push_back({out / "predict.csv", csv_prediction(mixture)});
-    files.push_back({out / "predict.json", result});
-    write_or_print(files, printed);
+    write_or_print(
+        {{out / "predict-average.svg", plot::draw_svg(mixture_figure(analysis, mixture).picture)},
+         {out / "predict.csv", csv_prediction(mixture)},
+         {out / "predict.json", result}},
+        printed);
   }
   print_text("{}", printed);
   if (options.height < 0.0 && !sizes.probe_height) {
@@ -87,7 +79,7 @@ void add_predict(Program& program) {
       "and\n"
       "count) under three conventions: captured spheres count as e = 0; they are left out; they\n"
       "are left out together with those that return too slowly to climb back to the measuring\n"
-      "plane. With --out it writes predict.csv, predict.json and pictures.\n\n"
+      "plane. With --out it writes predict.csv, predict.json and a picture.\n\n"
       "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
       "datasets/li1999-sst65-silicon/sizes.csv");
   const auto options = std::make_shared<PredictOptions>();

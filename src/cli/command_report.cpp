@@ -6,7 +6,6 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
@@ -15,10 +14,10 @@
 #include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "plot/draw.hpp"
-#include "report/comparison_page.hpp"
-#include "report/diagnosis_sections.hpp"
-#include "report/fit_sections.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "report/comparison_report.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/fit_report.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
 
@@ -187,7 +186,6 @@ void report(const ReportOptions& options) {
   require_writable_folder(out);
   const std::vector<fs::path> fits = fits_to_report(options);
   require_pages_of_their_own(fits);
-  plot::require_gnuplot();
   std::vector<IndexEntry> entries;
   for (const fs::path& fit : fits) {
     const std::string id = fit.stem().string();

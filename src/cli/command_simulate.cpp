@@ -5,7 +5,6 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -13,7 +12,7 @@
 #include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
 #include "impact/sensitivity.hpp"
-#include "json/fitted_values.hpp"
+#include "json/fit_file.hpp"
 #include "predict/simulated_impact.hpp"
 #include "predict/validity.hpp"
 #include "report/result_json.hpp"
@@ -273,10 +272,10 @@ void add_simulate(Program& program) {
   add_fit_file(command, options->fit_file);
   command.option("--velocity", options->velocity, "incident velocity [m/s]")
       .required()
-      .number("velocity", velocity_limits.first, velocity_limits.second);
+      .within(velocity_limits.first, velocity_limits.second, "velocity");
   command.option("--diameter", options->diameter, "sphere diameter [um]")
       .required()
-      .number("diameter", diameter_limits_um.first, diameter_limits_um.second);
+      .within(diameter_limits_um.first, diameter_limits_um.second, "diameter");
   command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       .takes("ID");
   command.option("--parameters", options->parameters, "take the values from this fit.json")

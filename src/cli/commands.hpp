@@ -1,6 +1,16 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/analysis.hpp"
 #include "cli/options.hpp"
+#include "core/files.hpp"
+#include "core/resumable.hpp"
+#include "document/document.hpp"
 
 namespace recoil {
 
@@ -28,5 +38,79 @@ void add_help(Program& program);
 
 /// The commands whose pieces several processes can share.
 void add_shared_commands(Program& program);
+
+/// FIT, a required fit file. One that is not there is refused with the name of
+/// one that is.
+void add_fit_file(const Command& command, std::string& fit_file);
+
+/// The same for any number of them, none required.
+Option add_fit_files(const Command& command, std::vector<std::string>& fits,
+                     const std::string& meaning);
+
+/// The options that every analysing command shares, as given.
+struct AnalysisFlags {
+  std::string replicates;  ///< a number or "auto"; empty: the fit file's
+  std::string scheme;      ///< empty: the fit file's
+  std::int64_t seed = -1;
+  int threads = 0;
+  std::string solver = "fast";
+
+  AnalysisOptions resolved() const;
+};
+
+void add_analysis_flags(const Command& command, AnalysisFlags& flags);
+
+/// --threads and --seed. @param of what the seed is: "the random numbers; fixes every digit"
+void add_threads(const Command& command, int& threads);
+void add_seed(const Command& command, std::int64_t& seed, const std::string& of);
+
+/// --json: the result as JSON on standard output in place of the words.
+void add_json_flag(const Command& command, bool& json);
+
+/// --verbose: the details behind the answer, too.
+void add_verbose_flag(const Command& command, bool& verbose);
+
+inline Importance importance_of(bool verbose) {
+  return verbose ? Importance::detail : Importance::answer;
+}
+
+/// Writes the files of a result. If they cannot be written the result is printed, so that the work
+/// is not lost, before the error is thrown. @throws InputError
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
+
+/// The options of a command whose pieces several processes can share.
+struct ShardFlags {
+  std::string shard;               ///< "3/40"; empty: this process computes everything
+  std::string parts;               ///< set by `recoil merge`: the folder of the parts
+  std::optional<Command> command;  ///< its words are those of the origin
+  std::string pieces;              ///< "data sets"
+
+  bool one_of_several() const { return !shard.empty(); }
+  bool merging() const { return !parts.empty(); }
+
+  /// Checks, before a shard computes anything, that it has a folder and
+  /// something to share.
+  /// @throws InputError
+  void require_share(const std::string& out, std::size_t count) const;
+
+  /// The origin of this command.
+  Origin origin(const FitSpec& spec, const std::vector<Dataset>& datasets, std::uint64_t seed,
+                std::size_t count, const std::string& start) const;
+
+  /// The rows to go on from: those that a stopped run left beside `result`
+  /// (with --shard, in the folder `result`), or those of all parts for a merge.
+  /// Null if the part of this shard exists; a line on standard output reports
+  /// it.
+  /// @param result empty: nothing is written
+  std::shared_ptr<KeptRows> rows(const Origin& origin, const std::filesystem::path& result) const;
+
+  /// With --shard: runs its pieces, and writes them as a part into `folder`.
+  void run_share(const Pieces& work, KeptRows& kept, const Origin& origin,
+                 const std::filesystem::path& folder) const;
+};
+
+/// Adds --shard, and an option that only `recoil merge` uses. `pieces`: see
+/// ShardFlags.
+void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags);
 
 }  // namespace recoil

@@ -153,23 +153,16 @@ void check_numbers(CLI::Option& option) {
 
 }  // namespace
 
-template <class Number>
-Option& Option::within(Number lowest, Number highest) {
-  const std::string range =
-      fmt::format("{} in [{} - {}]", CLI::detail::type_name<Number>(), lowest, highest);
+Option& Option::within(double lowest, double highest, const std::string& what) {
   option_->check(CLI::Validator(
       [=](const std::string& text) -> std::string {
-        const std::optional<Number> value = number_in<Number>(text);
+        const std::optional<double> value = parse_number(text);
         if (value && *value >= lowest && *value <= highest) return {};
-        return fmt::format("{} is not a number from {} to {}", text, lowest, highest);
+        return fmt::format("{} is not a {} from {} to {}", text, what, lowest, highest);
       },
-      range));
+      fmt::format("{} in [{} - {}]", what, lowest, highest)));
   return *this;
 }
-template Option& Option::within(int, int);
-template Option& Option::within(std::int64_t, std::int64_t);
-template Option& Option::within(std::size_t, std::size_t);
-template Option& Option::within(double, double);
 
 Option& Option::auto_or(int lowest, int highest) {
   option_->check(CLI::Validator(
@@ -179,17 +172,6 @@ Option& Option::auto_or(int lowest, int highest) {
         return fmt::format("{} is not auto, and not a number from {} to {}", text, lowest, highest);
       },
       auto_or_number));
-  return *this;
-}
-
-Option& Option::number(const std::string& what, double lowest, double highest) {
-  option_->check(CLI::Validator(
-      [=](const std::string& text) -> std::string {
-        const std::optional<double> value = number_in<double>(text);
-        if (value && *value >= lowest && *value <= highest) return {};
-        return fmt::format("{} is not a {} between {:g} and {:g}", text, what, lowest, highest);
-      },
-      what));
   return *this;
 }
 

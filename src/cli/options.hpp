@@ -35,14 +35,10 @@ class Option {
   Option& hidden();
   /// One word of a list.
   Option& one_of(const std::vector<std::string>& words);
-  /// A number in [lowest, highest]; NaN is refused. `Number` is the type of the
-  /// variable.
-  template <class Number>
-  Option& within(Number lowest, Number highest);
+  /// A number in [lowest, highest]; NaN is refused. @param what it is, for messages: "velocity"
+  Option& within(double lowest, double highest, const std::string& what = "number");
   /// "auto", or a whole number in [lowest, highest].
   Option& auto_or(int lowest, int highest);
-  /// As `within`, and the complaint says what the number is: "velocity".
-  Option& number(const std::string& what, double lowest, double highest);
   /// Texts without a complaint, which is empty for a good one. It may throw
   /// InputError.
   Option& check(const std::function<std::string(const std::string&)>& complaint);

@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <thread>
@@ -124,22 +123,6 @@ ChildOutcome run_child(const std::vector<std::string>& words, const std::string&
   outcome.out = contents(out.get());
   outcome.err = contents(err.get());
   return outcome;
-}
-
-bool is_installed(const std::string& program) {
-  const char* const path = std::getenv("PATH");
-  const std::string_view folders = path == nullptr ? "/usr/local/bin:/bin:/usr/bin" : path;
-  for (std::size_t at = 0; at <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', at), folders.size());
-    const std::filesystem::path file =
-        std::filesystem::path(folders.substr(at, end - at)) / program;
-    std::error_code failed;
-    if (std::filesystem::is_regular_file(file, failed) && access(file.c_str(), X_OK) == 0) {
-      return true;
-    }
-    at = end + 1;
-  }
-  return false;
 }
 
 }  // namespace recoil

@@ -21,7 +21,4 @@ struct ChildOutcome {
 ChildOutcome run_child(const std::vector<std::string>& words, const std::string& input,
                        std::chrono::milliseconds limit);
 
-/// Is there such a program in PATH?
-bool is_installed(const std::string& program);
-
 }  // namespace recoil

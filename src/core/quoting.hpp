@@ -11,7 +11,7 @@
 namespace recoil {
 
 /// Text of users (names of files, titles) on its way into another language: one function for each.
-/// HTML and XML: plot::escape_xml; gnuplot: plot::gnuplot_text; JSON: json_text.
+/// HTML and XML: plot::escape_xml; JSON: json_text.
 
 /// Length of the UTF-8 sequence that starts at byte `i` of `text`; 0 when it is not valid (RFC
 /// 3629).

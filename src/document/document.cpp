@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "plot/draw.hpp"
-
 namespace recoil {
 namespace {
 
@@ -33,18 +31,6 @@ void each_block(Blocks& blocks, const Visit& visit) {
       each_block(section->blocks, visit);
     }
   }
-}
-
-void draw(const std::vector<Figure*>& figures) {
-  std::vector<Figure*> waiting;
-  std::vector<const plot::Picture*> pictures;
-  for (Figure* figure : figures) {
-    if (!figure->svg.empty() || figure->picture.plots.empty()) continue;
-    waiting.push_back(figure);
-    pictures.push_back(&figure->picture);
-  }
-  std::vector<std::string> drawn = plot::draw_svg(pictures);
-  for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i]->svg = std::move(drawn[i]);
 }
 
 }  // namespace
@@ -84,28 +70,10 @@ Table items(const std::vector<std::pair<Sentence, Cell>>& entries) {
   return table;
 }
 
-Figure figure_of(plot::Picture picture, Sentence caption, bool large) {
-  Figure figure{picture.name, picture.title, std::move(caption), "", large, {}};
+Figure figure_of(plot::Picture picture, Sentence caption) {
+  Figure figure{picture.name, picture.title, std::move(caption), "", {}};
   figure.picture = std::move(picture);
   return figure;
-}
-
-void draw(std::vector<Figure>& figures) {
-  std::vector<Figure*> all;
-  for (Figure& figure : figures) all.push_back(&figure);
-  draw(all);
-}
-
-void draw(Document& document) {
-  std::vector<Figure*> all;
-  const auto collect = [&all](Block& block) {
-    if (auto* figures = std::get_if<Figures>(&block.content())) {
-      for (Figure& figure : figures->figures) all.push_back(&figure);
-    }
-  };
-  each_block(document.foreword, collect);
-  for (Section& section : document.sections) each_block(section.blocks, collect);
-  draw(all);
 }
 
 Blocks::Blocks() = default;
@@ -120,7 +88,6 @@ Blocks::~Blocks() = default;
 bool empty(const Block& block) {
   return std::visit(Overloaded{[](const Paragraph& paragraph) { return paragraph.text.empty(); },
                                [](const List& list) { return list.entries.empty(); },
-                               [](const Glossary& glossary) { return glossary.entries.empty(); },
                                [](const Table& table) { return table.empty(); },
                                [](const Figures& figures) { return figures.figures.empty(); },
                                [](const Banner& banner) { return banner.text.empty(); },
@@ -133,20 +100,6 @@ bool empty(const Section& section) { return all_empty(section.blocks); }
 
 void append(std::vector<Block>& blocks, std::vector<Block> more) {
   for (Block& block : more) blocks.push_back(std::move(block));
-}
-
-const Section* section_of(const Document& document, std::string_view id) {
-  const auto found = std::find_if(document.sections.begin(), document.sections.end(),
-                                  [&](const Section& section) { return section.id == id; });
-  return found == document.sections.end() ? nullptr : &*found;
-}
-
-std::vector<const Table*> tables_of(const Section& section) {
-  std::vector<const Table*> tables;
-  each_block(section.blocks, [&](const Block& block) {
-    if (const auto* table = std::get_if<Table>(&block.content())) tables.push_back(table);
-  });
-  return tables;
 }
 
 std::vector<const Figure*> figures_of(const Section& section) {

@@ -9,8 +9,8 @@
 #include "document/sentence.hpp"
 #include "plot/plot.hpp"
 
-/// What people read, before it is known where: the terminal (terminal.hpp), a page (html.hpp) or
-/// Markdown (markdown.hpp) writes it out.
+/// What people read, before it is known where: the terminal (terminal.hpp) or a page (html.hpp)
+/// writes it out.
 namespace recoil {
 
 /// A cell without content is shown as a dash.
@@ -25,7 +25,7 @@ Sentence words_of_cell(const Cell& cell);
 
 struct TableColumn {
   Sentence heading;
-  std::string unit{};  ///< said once, in the heading
+  std::string unit{};  ///< stands in the heading
   bool words = false;  ///< to be read rather than compared: to the left, and broken into lines
 };
 
@@ -57,28 +57,17 @@ struct List {
   std::vector<Sentence> entries;
 };
 
-/// Terms and their meaning.
-struct Glossary {
-  std::vector<std::pair<Sentence, Sentence>> entries;
-};
-
-/// One picture, as SVG or as what it shows. Who writes a page draws what is not drawn yet.
+/// One picture, as SVG or as what it shows; a page draws those that are not drawn yet.
 struct Figure {
   std::string id;
   std::string title;
-  Sentence caption;    ///< what it shows, and what to look for; without one there is no frame
-  std::string svg{};   ///< ready to inline; empty: not drawn yet
-  bool large = false;  ///< takes the whole width of the page; scrolls in its box on a phone
+  Sentence caption;   ///< what it shows, and what to look for; without one there is no frame
+  std::string svg{};  ///< ready to inline; empty: not drawn yet
   plot::Picture picture{};
-  std::string csv{};       ///< its data; empty: those of `picture`
-  std::string explored{};  ///< JSON for the script of the page, which makes controls of it
+  std::string csv{};  ///< its data; empty: those of `picture`
 };
 
-Figure figure_of(plot::Picture picture, Sentence caption, bool large = false);
-
-/// Draws the figures that have no SVG yet, all at once.
-/// @throws ComputationError when gnuplot cannot be run.
-void draw(std::vector<Figure>& figures);
+Figure figure_of(plot::Picture picture, Sentence caption);
 
 /// Pictures side by side. A terminal has none.
 struct Figures {
@@ -126,7 +115,7 @@ struct Section {
   Importance importance = Importance::answer;
 };
 
-struct Block : std::variant<Paragraph, List, Glossary, Table, Figures, Banner, Remark, Section> {
+struct Block : std::variant<Paragraph, List, Table, Figures, Banner, Remark, Section> {
   using variant::variant;
   const variant& content() const { return *this; }
   variant& content() { return *this; }
@@ -145,21 +134,12 @@ struct Document {
   Sentence subtitle{};
   std::vector<Block> foreword{};  ///< above the contents
   std::vector<Section> sections{};
-  std::string foot{};    ///< who made it
-  bool cards = false;    ///< the sections stand side by side, without a list of contents
-  std::string name{};    ///< what the files that a reader saves from the page begin with
-  std::string script{};  ///< JavaScript of the page, beside that which saves pictures
+  std::string foot{};  ///< who made it
+  bool cards = false;  ///< the sections stand side by side, without a list of contents
+  std::string name{};  ///< what the files that a reader saves from the page begin with
 };
 
-/// Draws every figure that has no SVG yet, all at once.
-/// @throws ComputationError when gnuplot cannot be run.
-void draw(Document& document);
-
-/// The first figure, table of that id or caption; for those who look a document through.
-const Section* section_of(const Document& document, std::string_view id);
-
-/// Every table and figure of a section, those in details and subsections too.
-std::vector<const Table*> tables_of(const Section& section);
+/// Every figure of a section, those in subsections too.
 std::vector<const Figure*> figures_of(const Section& section);
 
 }  // namespace recoil

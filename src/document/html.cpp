@@ -8,8 +8,7 @@
 #include <cstdlib>
 
 #include "core/json.hpp"
-#include "plot/plot.hpp"
-#include "plot/xml.hpp"
+#include "plot/draw.hpp"
 
 namespace recoil {
 namespace {
@@ -202,49 +201,27 @@ std::string data_html(std::string_view look, const std::string& json) {
   return fmt::format("<script type=\"application/json\" class=\"{}\">{}</script>\n", look, safe);
 }
 
-/// Empty cells, of which there are many where layers share nothing, as their number: four commas
-/// and more as "&4;", and the sign itself as "&0;". save.js undoes it.
-std::string without_runs_of_commas(const std::string& csv) {
-  constexpr std::size_t fewest = 4;
-  std::string out;
-  for (std::size_t i = 0; i < csv.size();) {
-    const std::size_t run = std::min(csv.find_first_not_of(',', i), csv.size()) - i;
-    if (run >= fewest) {
-      out += fmt::format("&{};", run);
-    } else {
-      out += csv[i] == '&' ? "&0;" : csv.substr(i, std::max<std::size_t>(run, 1));
-    }
-    i += std::max<std::size_t>(run, 1);
-  }
-  return out;
-}
-
-/// What the page's script needs: the data of the picture as a file, and what explores it.
+/// The data of the picture as a file, which the page's script saves.
 std::string data_of_figure(const Figure& figure) {
   const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
-  std::string out;
-  if (!csv.empty()) out += data_html("csv", json_line(without_runs_of_commas(csv)));
-  if (!figure.explored.empty()) out += data_html("explore", figure.explored);
-  return out;
+  return csv.empty() ? "" : data_html("csv", json_line(csv));
 }
 
 std::string figure_html(const Figure& figure) {
+  const std::string svg = figure.svg.empty() ? plot::draw_svg(figure.picture) : figure.svg;
   if (figure.caption.empty()) {
-    return fmt::format("<div class=\"picture\">{}</div>\n{}", figure.svg, data_of_figure(figure));
+    return fmt::format("<div class=\"picture\">{}</div>\n{}", svg, data_of_figure(figure));
   }
   return fmt::format(
-      "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
-      "\n{}</figure>\n",
-      escape_html(figure.id), figure.large ? " class=\"large\"" : "",
-      figure.large ? " tabindex=\"0\"" : "", figure.svg, html_of(figure.caption),
-      data_of_figure(figure));
+      "<figure id=\"figure-{}\"><div class=\"picture\">{}</div>\n<figcaption>{}</figcaption>\n{}"
+      "</figure>\n",
+      escape_html(figure.id), svg, html_of(figure.caption), data_of_figure(figure));
 }
 
-std::string figures_html(std::vector<Figure> figures) {
-  draw(figures);
+std::string figures_html(const std::vector<Figure>& figures) {
   if (figures.size() == 1 && figures.front().caption.empty()) return figure_html(figures.front());
-  std::string out = fmt::format("<div class=\"figures{}\">\n",
-                                figures.size() == 1 && !figures.front().large ? " single" : "");
+  std::string out =
+      fmt::format("<div class=\"figures{}\">\n", figures.size() == 1 ? " single" : "");
   for (const Figure& figure : figures) out += figure_html(figure);
   return out + "</div>\n";
 }
@@ -267,13 +244,6 @@ struct HtmlBlock {
       out += fmt::format("<li>{}</li>\n", html_of(entry));
     }
     return out + "</ul>\n";
-  }
-  std::string operator()(const Glossary& glossary) const {
-    std::string out = "<dl>\n";
-    for (const auto& [term, meaning] : glossary.entries) {
-      out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_of(term), html_of(meaning));
-    }
-    return out + "</dl>\n";
   }
   std::string operator()(const Table& table) const { return table_html(table); }
   std::string operator()(const Figures& figures) const { return figures_html(figures.figures); }
@@ -356,8 +326,7 @@ std::string html_of(const std::vector<Block>& blocks) {
   return out;
 }
 
-std::string html_page(Document document) {
-  draw(document);
+std::string html_page(const Document& document) {
   std::string head = fmt::format("<header>\n<h1>{}</h1>\n", html_of(document.heading));
   if (!document.subtitle.empty()) {
     head += fmt::format("<p class=\"subtitle\">{}</p>\n", html_of(document.subtitle));
@@ -372,11 +341,10 @@ std::string html_page(Document document) {
   }
   if (!details.empty()) answer = "<div class=\"answer\">\n" + answer + "</div>\n";
   const std::string body = answer + details;
-  // Only of a page with pictures: nothing else can be saved or explored.
+  // Only of a page with pictures: nothing else can be saved.
   const bool pictures = body.find("<svg ") != std::string::npos;
   const std::string scripts =
-      pictures ? fmt::format("<script type=\"text/javascript\">\n{}{}</script>\n", save_script(),
-                             document.script)
+      pictures ? fmt::format("<script type=\"text/javascript\">\n{}</script>\n", save_script())
                : "";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -19,8 +19,7 @@ std::string html_of(const Sentence& sentence);
 std::string html_of(const std::vector<Block>& blocks);
 
 /// The whole file, its pictures drawn.
-/// @throws ComputationError when there is a picture to draw and gnuplot cannot be run.
-std::string html_page(Document document);
+std::string html_page(const Document& document);
 
 /// The style sheet of every page: light and dark, screen, phone and paper.
 std::string_view style_sheet();

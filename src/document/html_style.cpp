@@ -30,7 +30,7 @@ h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .25rem; letter-spacing: 
 h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.5rem 0 .75rem; padding-top: .75rem;
   border-top: 1px solid var(--line); }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
-p, ul, dl { max-width: 48rem; }
+p, ul { max-width: 48rem; }
 .subtitle { color: var(--quiet); margin: 0 0 1rem; }
 .summary { font-size: 1.08rem; }
 sub { line-height: 0; }
@@ -51,22 +51,10 @@ figure { margin: 0; background: var(--card); border: 1px solid var(--line); bord
   overflow: hidden; break-inside: avoid; }
 .picture { background: var(--picture); padding: .4rem; }
 .picture svg { display: block; width: 100%; height: auto; }
-.large { grid-column: 1 / -1; }
-.large .picture { overflow-x: auto; }
-.large .picture svg { min-width: 40rem; max-width: 54rem; margin: 0 auto; }
 figcaption { padding: .5rem .9rem .8rem; font-size: .88rem; line-height: 1.45;
   color: var(--quiet); border-top: 1px solid var(--line); }
 .save { margin: 0; padding: .3rem .9rem; font-size: .82rem; color: var(--quiet); max-width: none; }
 .save a { margin-right: .5rem; }
-.explore { padding: 0 .9rem .6rem; font-size: .88rem; }
-.explore .control { display: grid; grid-template-columns: 9.5rem 1fr 7rem;
-  gap: .1rem .7rem; align-items: center; margin: .3rem 0; }
-.explore input { width: 100%; min-width: 0; margin: 0; font: inherit; color: var(--ink);
-  accent-color: var(--accent); }
-.explore input[type=number] { background: var(--paper); border: 1px solid var(--line);
-  border-radius: .25rem; padding: .15rem .35rem; }
-.explore button { font: inherit; margin: .3rem 0 0; }
-.explored-result { margin: .5rem 0 0; }
 .wide { width: fit-content; max-width: 100%; overflow-x: auto; margin: .75rem 0 1.25rem; border: 1px solid var(--line);
   border-radius: .4rem; background: var(--card); }
 table { border-collapse: collapse; width: 100%; font-size: .93rem;
@@ -85,8 +73,6 @@ table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
 .answer table.compact th, .answer table.compact td { padding: .18rem .35rem; }
 .answer table.compact th { white-space: normal; }
 .answer table.compact td.words { white-space: normal; min-width: 4rem; }
-dt { font-weight: 600; margin-top: .7rem; }
-dd { margin: .1rem 0 0 1.2rem; }
 details summary { cursor: pointer; color: var(--accent); margin: .5rem 0; }
 details.section { border-top: 1px solid var(--line); margin-top: 1rem; padding-top: .25rem; }
 details.section > summary h2 { display: inline; border: 0; margin: 0; padding: 0; color: inherit; }
@@ -132,8 +118,6 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .stack td::before { content: attr(data-label); float: left; margin-right: 1rem;
     color: var(--quiet); }
   .stack td:empty, .stack td[data-label=""]::before { display: none; }
-  .explore .control { grid-template-columns: 1fr 7.5rem; }
-  .explore .control span { grid-column: 1 / -1; }
 }
 @media print {
   :root { --picture: #fff; --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
@@ -141,20 +125,18 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
     --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  nav, .skip, .save, .explore, .explored { display: none; }
+  nav, .skip, .save { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
   h3 { break-after: avoid; }
   .summary { font-size: 10.5pt; }
   .figures { grid-template-columns: 1fr 1fr; gap: .5rem; }
   .figures.single { max-width: none; }
-  .large .picture svg { min-width: 0; }
   .cards { grid-template-columns: 1fr 1fr; }
   figcaption { font-size: 8pt; }
   .picture svg { filter: none; }
   .wide { overflow: visible; break-inside: avoid; }
   .wide:has(table.compact) { break-inside: auto; }
-  .large .picture { overflow: visible; }
   table { font-size: 8pt; overflow-wrap: anywhere; }
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }

@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-/// 3e-05 has a zero that says nothing.
+/// 3e-05 as 3e-5.
 std::string without_empty_exponent(std::string text) {
   const auto e = text.find('e');
   if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);

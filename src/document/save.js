@@ -1,6 +1,6 @@
 // Saves the pictures of a page: beside each links to it as SVG, PNG and PDF and one to its data as CSV,
-// made of what is in the page. The data of a picture are a JSON string in the script of class csv after it,
-// with runs of commas counted (html.cpp).
+// made of what is in the page. The data of a picture are a JSON string in the script of class csv
+// after it.
 "use strict";
 
 // Paper shows everything: folded sections open before printing.
@@ -105,9 +105,7 @@ document.addEventListener("DOMContentLoaded", () => {
     links.append(" ", png, " ", pdf);
     const data = (figure || picture.parentNode).querySelector("script.csv");
     if (data) {
-      links.append(" ", link("CSV", name + ".csv", "text/csv", () =>
-        JSON.parse(data.textContent)
-            .replace(/&(\d+);/g, (_, n) => (n === "0" ? "&" : ",".repeat(Number(n))))));
+      links.append(" ", link("CSV", name + ".csv", "text/csv", () => JSON.parse(data.textContent)));
     }
     if (figure) figure.append(links); else picture.after(links);
   }

@@ -201,16 +201,6 @@ struct TerminalBlock {
     }
     return out;
   }
-  std::string operator()(const Glossary& glossary) const {
-    std::string out;
-    for (const auto& [term, meaning] : glossary.entries) {
-      out +=
-          std::string(margin, ' ') +
-          wrap(fmt::format("{}: {}", plain_text(term), plain_text(meaning)), columns, 2 * margin) +
-          '\n';
-    }
-    return out;
-  }
   std::string operator()(const Table& table) const { return terminal_text(table, margin, columns); }
   std::string operator()(const Figures&) const { return ""; }
   std::string operator()(const Banner& banner) const {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
 
@@ -73,6 +76,28 @@ struct PairRequest {
   std::string file;
   PairingOptions pairing;
   AverageOptions averaging;
+};
+
+/// The options of `recoil pair` in the units in which they are given.
+struct PairArguments {
+  std::map<std::string, std::string> units, columns;  ///< by field
+  bool positive_away = false;  ///< velocities are positive away from the surface
+  double height = 1.0;         ///< [mm]
+  double height_range = 1.5;
+  bool keep_height = false;
+  double diameter_tolerance = 0.2, velocity_tolerance = 0.15;
+  bool keep_later = false;
+  std::optional<double> threshold;  ///< [m/s]
+  std::optional<double> angle;      ///< [degrees]
+  std::optional<double> lost_share;
+  std::size_t per_bin = 40, size_classes = 1;
+  std::vector<double> size_edges;  ///< [um]
+  bool mean_diameter = false;
+  RECOIL_FIELDS(units, columns, positive_away, height, height_range, keep_height,
+                diameter_tolerance, velocity_tolerance, keep_later, threshold, angle, lost_share,
+                per_bin, size_classes, size_edges, mean_diameter)
+
+  PairRequest request(const std::string& file) const;
 };
 
 /// Its result.

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "export/approximation.hpp"
@@ -43,5 +46,13 @@ double typical_velocity(const ExportedImpact& impact);
 
 /// Rounded to so many significant digits.
 double rounded(double value, int digits);
+
+/// `text` with every @NAME@ replaced by its value. Every name has to have a value, and every value
+/// a place: a writer that breaks this is mistaken.
+std::string filled(std::string_view text,
+                   std::initializer_list<std::pair<std::string_view, std::string>> values);
+
+/// Each line behind `mark` ("# "), with a line end.
+std::string commented(const std::vector<std::string>& lines, std::string_view mark);
 
 }  // namespace recoil

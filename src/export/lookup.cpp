@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "estimate/capture_velocity.hpp"
-#include "export/filled.hpp"
+#include "export/export_job.hpp"
 
 namespace recoil {
 namespace {

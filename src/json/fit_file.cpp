@@ -1,11 +1,17 @@
 #include "json/fit_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/program.hpp"
 
 namespace recoil {
+
 namespace {
 
 /// @throws InputError unless `json` has the format_version of this program
@@ -59,6 +65,71 @@ std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter) {
   if (kind == "bca") return all.bca;
   if (kind == "studentized") return all.studentized;
   return std::nullopt;
+}
+
+namespace {
+
+/// Were these values fitted to `datasets` as they are now?
+void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const std::string& path) {
+  const auto same_id = [](const DatasetEntry& fitted, const Dataset& now) {
+    return fitted.id == now.id;
+  };
+  if (!std::equal(fit.datasets.begin(), fit.datasets.end(), datasets.begin(), datasets.end(),
+                  same_id)) {
+    std::vector<std::string> ids;
+    for (const DatasetEntry& dataset : fit.datasets) ids.push_back(dataset.id);
+    throw InputError({path}, fmt::format("these values were fitted to {}", fmt::join(ids, " + ")),
+                     "the fit file names other data", "use the fit.json of this fit file");
+  }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (fit.datasets[d].sha256 == datasets[d].sha256) continue;
+    throw InputError({path}, fmt::format("{} has changed since", datasets[d].id),
+                     "these values belong to the files as they were", "run recoil fit again");
+  }
+}
+
+std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
+  std::map<std::string, FittedValue> values;
+  for (const auto& [name, parameter] : fit.parameters) {
+    const auto& value = parameter.value.value;
+    if (value) values[name] = {*value, parameter.std_error.value};
+  }
+  for (const auto& [name, constant] : fit.constants) {
+    if (constant.value) values[name] = {*constant.value, constant.std_error};
+  }
+  return values;
+}
+
+}  // namespace
+
+FitSpec with_fitted_loss(FitSpec spec, const std::string& path) {
+  if (path.empty() || (!spec.loss.empty() && spec.loss != "auto")) return spec;
+  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
+  return with_loss(std::move(spec), fit.options.loss);
+}
+
+std::vector<FittedValue> take_fitted_values(ImpactModel& model,
+                                            const std::vector<Dataset>& datasets,
+                                            const std::string& path) {
+  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
+  check_data(fit, datasets, path);
+  const std::map<std::string, FittedValue> fitted = values_by_name(fit);
+  std::vector<FittedValue> values;
+  for (ParameterSlot& slot : model.slots) {
+    // An adhesion that follows the materials does so from what is stated of them.
+    if (slot.derived && !slot.free && !model.constants.empty()) {
+      values.push_back({slot.initial, std::nullopt});
+      continue;
+    }
+    const auto found = fitted.find(slot.label());
+    if (found == fitted.end()) {
+      throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
+                       "this is the result of another fit", "use the fit.json of this fit file");
+    }
+    slot.initial = found->second.value;
+    values.push_back(found->second);
+  }
+  return values;
 }
 
 }  // namespace recoil

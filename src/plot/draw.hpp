@@ -1,33 +1,27 @@
 #pragma once
 
-#include <chrono>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plot/plot.hpp"
 
 namespace recoil::plot {
 
-/// Each picture as an `<svg>` element ready to stand in an HTML page: no prolog, ids that begin
-/// with the picture's name, a view box without a fixed size, role and label. The same picture gives
-/// the same bytes, alone or among others. One gnuplot draws them all.
-/// @param program the gnuplot to run, searched in PATH.
-/// @throws ComputationError with gnuplot's own message when it is missing or fails.
-std::vector<std::string> draw_svg(const std::vector<const Picture*>& pictures,
-                                  const std::string& program = "gnuplot");
+/// The picture as an `<svg>` element ready to stand in an HTML page: ids that begin with the
+/// picture's name, a view box without a fixed size, role and label. The same picture gives the same
+/// bytes.
+std::string draw_svg(const Picture& picture);
 
-std::string draw_svg(const Picture& picture, const std::string& program = "gnuplot");
+/// `text` as the content of an element or of an attribute, in XML as in HTML; control characters,
+/// which have no place there, become blanks.
+std::string escape_xml(std::string_view text);
 
-/// What gnuplot prints when it is given `script`. No shell and no named file takes part, neither
-/// the user's locale nor his settings.
-/// @param program the gnuplot to run, searched in PATH.
-/// @throws ComputationError with gnuplot's own message when it is missing or fails, or when it has
-/// not ended after `limit`.
-std::string run_gnuplot(const std::string& script, const std::string& program = "gnuplot",
-                        std::chrono::milliseconds limit = std::chrono::minutes(2));
+/// The round numbers between two ends of a logarithmic axis: 1-2-5 steps where they fit, decades
+/// otherwise.
+std::vector<double> log_ticks(Range range);
 
-/// Commands that draw at their end ask at their beginning.
-/// @throws InputError when gnuplot is not installed
-void require_gnuplot();
+/// A round step that gives about `count` ticks over the range; 0 where there is none.
+double round_step(Range range, int count);
 
 }  // namespace recoil::plot

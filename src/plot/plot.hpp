@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-/// What a picture shows, without a word about how it is drawn (see plot/draw.hpp). Numbers are
-/// those of the axes. Texts are plain; the symbols of the model in them (C_H, f0) are set as such.
+/// What a picture shows; plot/draw.hpp draws it. Numbers are those of the axes. Texts are plain;
+/// the symbols of the model in them (C_H, f0) are set as such.
 namespace recoil::plot {
 
 // How marks and lines look.
@@ -85,17 +85,6 @@ Range range_of(const std::vector<double>& values, double margin);
 /// positive have no place there.
 Range log_range_of(const std::vector<double>& values, double margin);
 
-/// The range between two quantiles of the finite values.
-Range quantile_range(std::vector<double> values, double lower, double upper);
-
-/// A factor 10^3n that brings numbers of size `magnitude` between 1 and 1000, and the unit that
-/// they then have: "10⁻³ s/m".
-struct Scaling {
-  double factor = 1.0;
-  std::string unit;
-};
-Scaling scaling_for(double magnitude, const std::string& unit);
-
 enum class Direction { horizontal, vertical };
 
 // Layers, drawn in their order. A layer with a name has an entry in the key.
@@ -129,7 +118,7 @@ struct Band {
   std::string name = {};
 };
 
-/// Rectangles: bars of a histogram, bars of a ranking, cells of a table.
+/// Rectangles: cells of a table.
 struct Boxes {
   std::vector<double> left, right, bottom, top;
   Fill fill = {};
@@ -139,14 +128,6 @@ struct Boxes {
 
   void add(double from_x, double to_x, double from_y, double to_y);
   std::size_t size() const { return left.size(); }
-};
-
-/// Level pieces, with a stop at each end as intervals are drawn, or without as bars.
-struct Spans {
-  std::vector<double> y, lower, upper;
-  Stroke stroke = {};
-  std::string name = {};
-  bool stops = true;
 };
 
 /// Discs whose area grows with how far `values` are from nothing, coloured by the colour scale.
@@ -160,7 +141,6 @@ struct Rule {
   Direction direction = Direction::vertical;
   double at = 0.0;
   Stroke stroke = {};
-  bool in_front = false;
   std::string name = {};
 };
 
@@ -168,15 +148,6 @@ struct Rule {
 struct Region {
   std::optional<double> left = {}, right = {}, bottom = {}, top = {};
   Fill fill = {std::string(green), 0.18};
-  std::string name = {};
-};
-
-/// The line on which a surface over the plane has one height.
-struct Contour {
-  Range x, y;                             ///< of the places, which are evenly spaced, ends included
-  std::vector<std::vector<double>> rows;  ///< heights [y][x]
-  double level = 0.5;
-  Stroke stroke = {};
   std::string name = {};
 };
 
@@ -202,7 +173,7 @@ struct Words {
   bool bold = false;
 };
 
-using Layer = std::variant<Points, Line, Band, Boxes, Spans, Discs, Rule, Region, Contour, Words>;
+using Layer = std::variant<Points, Line, Band, Boxes, Discs, Rule, Region, Words>;
 
 /// The name of a layer in the key; empty where it has none.
 const std::string& name_of(const Layer& layer);
@@ -210,18 +181,15 @@ const std::string& name_of(const Layer& layer);
 struct Tick {
   double at = 0.0;
   std::string label = {};
-  bool bold = false;
 };
 
 struct Axis {
   std::string label = {};
-  std::string unit = {};                     ///< "m/s"; empty: a pure number
-  std::optional<double> from = {}, to = {};  ///< ends, as the data need them where not given
+  std::string unit = {};        ///< "m/s"; empty: a pure number
+  double from = 0.0, to = 1.0;  ///< ends; the first may be the larger
   bool logarithmic = false;
-  std::vector<Tick> ticks = {};  ///< empty: round numbers
-  int about = 0;                 ///< how many round numbers; 0: as many as fit
+  std::vector<Tick> ticks = {};  ///< empty: about five round numbers
   bool grid = true;
-  bool shown = true;        ///< with the numbers at its ticks; of several plots only the outer ones
   bool upright = false;     ///< tick labels turned, where they are long and many
   double tick_size = 13.0;  ///< of the tick labels [px]
 
@@ -238,15 +206,11 @@ struct ColourScale {
   std::string label = {};
   Range range = {-1.0, 1.0};
   std::vector<std::pair<double, std::string_view>> stops = {};  ///< along the range, from 0 to 1
-  std::string format = "%g";                                    ///< of the numbers, as for printf
+  std::string unit = {};                                        ///< behind its numbers: " %"
 };
 
-enum class KeyPlace { none, above, below, lower_right, upper_right };
-
-struct Key {
-  KeyPlace place = KeyPlace::none;
-  int rows = 1;  ///< below the plot
-};
+/// Where the names of the layers stand.
+enum class KeyPlace { none, above, below };
 
 /// Where a plot's axes stand in a picture of several [px from the left and from the foot].
 struct Frame {
@@ -259,7 +223,7 @@ struct Plot {
   std::string remark = {};  ///< under the heading, smaller
   Colour remark_colour = std::string(grey);
   Axis x, y;
-  Key key = {};
+  KeyPlace key = KeyPlace::none;
   std::optional<ColourScale> colours = {};
   std::vector<Layer> layers = {};
   std::optional<Frame> frame = {};  ///< none: the whole picture
@@ -273,34 +237,16 @@ struct Picture {
   int width = 480;    ///< [px] of the view box
   int height = 340;   ///< [px]
   std::vector<Plot> plots = {};
-  Key key = {};  ///< one for all plots: every name once
 };
-
-/// The numbers of a layer as named columns.
-struct Column {
-  std::string name;
-  std::string unit;
-  std::vector<double> values;
-  std::vector<Tick> named = {};  ///< values that the axis calls by a name instead
-};
-struct DataTable {
-  std::string name;  ///< of the layer; empty where it has none
-  std::vector<Column> columns;
-  std::size_t plot = 0;  ///< in which of the plots it stands
-};
-/// What a picture shows in numbers: a table per layer that holds data.
-std::vector<DataTable> data_of(const Picture& picture);
 
 /// `text` made fit for `Picture::name`.
 std::string plot_name(std::string_view text);
 
 /// The numbers that a picture shows as one table of comma-separated values (RFC 4180), in five
-/// digits: a column for every column of its layers, named "LAYER: QUANTITY [UNIT]" (before it the
-/// heading of the plot where there are several), pure numbers without a unit. Layers of one plot
-/// that begin with the same quantity share its column, "QUANTITY [UNIT]", and its rows where it has
-/// the same values there; cells in which a layer has nothing are empty. Layers without a name that
-/// show the same quantity are told apart by (2), (3). What an axis calls by a name instead of a
-/// number stands by its name. Empty where the picture shows no data.
+/// digits: a column for every column of its layers, named "LAYER: QUANTITY [UNIT]", pure numbers
+/// without a unit. Layers that begin with the same quantity share its column, "QUANTITY [UNIT]",
+/// and its rows where it has the same values there; cells in which a layer has nothing are empty.
+/// Two columns of one name are told apart by (2). Empty where the picture shows no data.
 std::string csv_of(const Picture& picture);
 
 }  // namespace recoil::plot

@@ -11,10 +11,10 @@
 #include <condition_variable>
 #include <filesystem>
 #include <future>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numbers>
 
 #include "analysis/analysis.hpp"
 #include "core/error.hpp"
@@ -28,20 +28,17 @@
 #include "document/html.hpp"
 #include "document/terminal.hpp"
 #include "experiment/averages.hpp"
+#include "estimate/predictor.hpp"
 #include "experiment/pairing_files.hpp"
-#include "json/fitted_values.hpp"
+#include "json/fit_file.hpp"
 #include "plot/draw.hpp"
 #include "predict/polydisperse.hpp"
 #include "predict/simulated_impact.hpp"
-#include "python/impacts.hpp"
-#include "report/comparison_page.hpp"
-#include "report/diagnosis_sections.hpp"
-#include "report/experiment_figures.hpp"
-#include "report/fit_sections.hpp"
-#include "report/fit_tables.hpp"
-#include "report/pairing_document.hpp"
-#include "report/prediction_files.hpp"
-#include "report/prediction_page.hpp"
+#include "report/comparison_report.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/fit_report.hpp"
+#include "report/pairing_report.hpp"
+#include "report/prediction_report.hpp"
 #include "report/result_json.hpp"
 
 namespace py = pybind11;
@@ -143,6 +140,69 @@ FitInputs inputs_from_text(const std::string& text, const std::string& file,
 }
 
 // ---- models ------------------------------------------------------------------------------------
+
+/// Many impacts of one model, as columns.
+struct ManyImpacts {
+  std::vector<double> restitution_squared;  ///< [impacts], see ImpactResult; NaN without an answer
+  std::vector<std::uint8_t> captured;       ///< [impacts] 1: the sphere stays
+  /// [column][impacts]: d e^2 / d (each slot of the model, the velocity [s/m], the diameter [1/m]).
+  std::vector<std::vector<double>> slopes;
+};
+
+void require_within(const std::vector<double>& values, double unit, const char* what,
+                    const char* unit_name, std::pair<double, double> limits) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i] / unit;
+    if (value >= limits.first && value <= limits.second) continue;
+    throw InputError({}, fmt::format("the {} of impact {} is {:g} {}", what, i, value, unit_name),
+                     "",
+                     fmt::format("give a {} between {:g} and {:g} {}", what, limits.first,
+                                 limits.second, unit_name));
+  }
+}
+
+/// Simulates impacts at `velocity` [m/s] and `diameter` [m], all at once, under the model's initial
+/// values. @pre as many diameters as velocities
+/// @throws InputError where one of them is not a number or out of `velocity_limits`,
+///   `diameter_limits_um`
+ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
+                          const std::vector<double>& velocity, const std::vector<double>& diameter,
+                          bool slopes) {
+  require_within(velocity, units::m, "velocity", "m/s", velocity_limits);
+  require_within(diameter, units::um, "diameter", "um", diameter_limits_um);
+  const std::size_t count = velocity.size();
+  const std::vector<double> theta = model.initial();
+  const std::size_t slots = theta.size();
+  ManyImpacts out;
+  out.restitution_squared.assign(count, std::numeric_limits<double>::quiet_NaN());
+  out.captured.assign(count, 0);
+  if (slopes) {
+    out.slopes.assign(slots + 2,
+                      std::vector<double>(count, std::numeric_limits<double>::quiet_NaN()));
+  }
+  std::vector<double> row(slots);
+  // Part by part, as a large array can be called off between two of them.
+  constexpr std::size_t part = 20000;
+  for (std::size_t begin = 0; begin < count; begin += part) {
+    const std::size_t end = std::min(count, begin + part);
+    std::vector<PointConditions> points;
+    for (std::size_t i = begin; i < end; ++i) points.push_back({dataset, diameter[i], velocity[i]});
+    PointPredictor predictor(model, std::move(points));
+    predictor.evaluate(theta, slopes);
+    for (std::size_t i = begin; i < end; ++i) {
+      const ImpactResult& result = predictor.at(i - begin);
+      if (!result.usable()) continue;
+      out.restitution_squared[i] = result.restitution_squared;
+      out.captured[i] = result.restitution_squared > 0.0 ? 0 : 1;
+      if (!slopes) continue;
+      predictor.gradient_row(i - begin, 1.0, row);
+      for (std::size_t s = 0; s < slots; ++s) out.slopes[s][i] = row[s];
+      out.slopes[slots][i] = predictor.velocity_slope(i - begin);
+      out.slopes[slots + 1][i] = predictor.diameter_slope(i - begin);
+    }
+  }
+  return out;
+}
 
 /// A model with values, as it is simulated.
 struct Valued {
@@ -285,7 +345,7 @@ Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
                       analysis.uncertainty.bootstrap, sizes, mix);
   return {json_prediction(analysis, mixture),
           text_prediction(analysis, mixture),
-          {mixture_figures(analysis, mixture)}};
+          {{mixture_figure(analysis, mixture)}}};
 }
 
 Diagnosis diagnosis_of(const Analysis& analysis, std::optional<std::uint64_t> seed, int threads) {
@@ -317,63 +377,21 @@ std::pair<std::string, std::string> compared(
 
 // ---- passages ----------------------------------------------------------------------------------
 
-/// The options of `recoil.pair`, in the units of the command's options of the same names.
-struct PairArguments {
-  std::map<std::string, std::string> units, columns;
-  bool positive_away = false;
-  double height = 1.0;  ///< [mm]
-  double height_range = 1.5;
-  bool keep_height = false;
-  double diameter_tolerance = 0.2;
-  double velocity_tolerance = 0.15;
-  bool keep_later = false;
-  std::optional<double> threshold;  ///< [m/s]
-  std::optional<double> angle;      ///< [degrees]
-  std::optional<double> lost_share;
-  std::size_t per_bin = 40;
-  std::size_t size_classes = 1;
-  std::vector<double> size_edges;  ///< [um]
-  bool mean_diameter = false;
-};
-
-/// The texts that the command prints and writes, and its pictures.
+/// The texts that the command prints and writes.
 struct PairTexts {
   std::string json, text, points, impacts;
-  Pictures pictures;
 };
 
-PairTexts pair_texts(const std::string& file, const PairArguments& arguments) {
-  constexpr double degree = std::numbers::pi / 180.0;
-  PairRequest request;
-  request.file = file;
-  PairingOptions& pairing = request.pairing;
-  pairing.height = arguments.height * units::mm;
-  pairing.height_range = arguments.height_range;
-  pairing.refine = !arguments.keep_height;
-  pairing.diameter_tolerance = arguments.diameter_tolerance;
-  pairing.velocity_tolerance = arguments.velocity_tolerance;
-  pairing.keep_later = arguments.keep_later;
-  pairing.threshold = arguments.threshold;
-  if (arguments.angle) pairing.angle = *arguments.angle * degree;
-  pairing.lost_share = arguments.lost_share;
-  AverageOptions& averaging = request.averaging;
-  averaging.per_bin = arguments.per_bin;
-  averaging.size_classes = arguments.size_classes;
-  for (const double edge : arguments.size_edges) averaging.size_edges.push_back(edge * units::um);
-  averaging.mean_diameter = arguments.mean_diameter;
-
+/// @param json a PairArguments
+PairTexts pair_texts(const std::string& file, const std::string& json) {
+  const auto arguments = value_from<PairArguments>(Json::parse(json));
+  const PairRequest request = arguments.request(file);
   const PairedPassages paired = pair_and_average(
       read_passages(file, {arguments.units, arguments.columns, arguments.positive_away}), request);
   require_impacts(paired, request, "");
   const auto& [table, pairs, averages] = paired;
-  const std::string remark = std::filesystem::path(file).filename().string();
-  Pictures pictures;
-  for (plot::Picture& picture :
-       experiment_pictures(distributions(table, pairs), averages, remark)) {
-    pictures.figures.push_back(figure_of(std::move(picture), ""));
-  }
   return {pairing_json(table, pairs, averages), pairing_text(table, pairs, averages),
-          points_csv(averages), impacts_csv(table, pairs), std::move(pictures)};
+          points_csv(averages), impacts_csv(table, pairs)};
 }
 
 // ---- errors ------------------------------------------------------------------------------------
@@ -539,36 +557,17 @@ void bind_results(py::module_& module) {
 }
 
 void bind_pairs(py::module_& module) {
-  py::class_<PairArguments>(module, "PairArguments")
-      .def(py::init<>())
-      .def_readwrite("units", &PairArguments::units)
-      .def_readwrite("columns", &PairArguments::columns)
-      .def_readwrite("positive_away", &PairArguments::positive_away)
-      .def_readwrite("height", &PairArguments::height)
-      .def_readwrite("height_range", &PairArguments::height_range)
-      .def_readwrite("keep_height", &PairArguments::keep_height)
-      .def_readwrite("diameter_tolerance", &PairArguments::diameter_tolerance)
-      .def_readwrite("velocity_tolerance", &PairArguments::velocity_tolerance)
-      .def_readwrite("keep_later", &PairArguments::keep_later)
-      .def_readwrite("threshold", &PairArguments::threshold)
-      .def_readwrite("angle", &PairArguments::angle)
-      .def_readwrite("lost_share", &PairArguments::lost_share)
-      .def_readwrite("per_bin", &PairArguments::per_bin)
-      .def_readwrite("size_classes", &PairArguments::size_classes)
-      .def_readwrite("size_edges", &PairArguments::size_edges)
-      .def_readwrite("mean_diameter", &PairArguments::mean_diameter);
   py::class_<PairTexts>(module, "PairTexts")
       .def_readonly("json", &PairTexts::json)
       .def_readonly("text", &PairTexts::text)
       .def_readonly("points", &PairTexts::points)
-      .def_readonly("impacts", &PairTexts::impacts)
-      .def_readonly("pictures", &PairTexts::pictures);
+      .def_readonly("impacts", &PairTexts::impacts);
   module.def(
       "pair",
-      [](const std::string& file, const PairArguments& arguments) {
-        return interruptible([&] { return pair_texts(file, arguments); });
+      [](const std::string& file, const std::string& json) {
+        return interruptible([&] { return pair_texts(file, json); });
       },
-      py::arg("file"), py::arg("arguments"));
+      py::arg("file"), py::arg("json"));
 }
 
 }  // namespace

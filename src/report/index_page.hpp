@@ -19,7 +19,6 @@ struct IndexEntry {
 };
 
 /// A small picture of e(V) for the index, as SVG and as comma-separated values.
-/// @throws ComputationError when gnuplot cannot be run.
 std::string thumbnail(const Analysis& analysis);
 std::string thumbnail_csv(const Analysis& analysis);
 

@@ -93,7 +93,6 @@ plot::Axis velocity_axis(plot::Range range) {
 plot::Axis restitution_axis(double top) {
   plot::Axis axis{"restitution e"};
   axis.set_range({0.0, top});
-  axis.about = 5;
   return axis;
 }
 

@@ -13,7 +13,7 @@
 #include "json/diagnosis_file.hpp"
 #include "json/fit_file.hpp"
 #include "predict/simulated_impact.hpp"
-#include "report/comparison_page.hpp"
+#include "report/comparison_report.hpp"
 
 /// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
 namespace recoil {

@@ -2,8 +2,6 @@
 #include <algorithm>
 
 #include "core/units.hpp"
-#include "report/answer_words.hpp"
-#include "report/diagnosis_headline.hpp"
 #include "report/result_json.hpp"
 #include "report/words_diagnosis.hpp"
 

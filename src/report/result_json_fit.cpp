@@ -13,7 +13,6 @@
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
-#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {

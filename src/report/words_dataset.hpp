@@ -11,7 +11,6 @@
 #include "predict/validity.hpp"
 
 /// Datasets in words: origin, warnings, stated errors, limits of the model, notes of an import.
-
 namespace recoil {
 
 /// One sentence on the origin of the points; for a reconstruction, that none was measured.
@@ -56,5 +55,16 @@ Table restitution_table(const RestitutionSummary& summary, const std::vector<Dat
 
 /// A note of `recoil import` as a sentence.
 std::string note_sentence(const ImportNote& note);
+
+/// What was read of the two bodies, the columns and the file, as names and values.
+Table dataset_table(const Dataset& dataset);
+
+/// Each series with its sizes, velocities, restitutions and impacts.
+Table series_table(const Dataset& dataset);
+
+std::vector<Section> dataset_sections(const Dataset& dataset);
+
+/// What `recoil check` prints.
+std::string dataset_text(const Dataset& dataset);
 
 }  // namespace recoil

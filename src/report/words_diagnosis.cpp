@@ -5,13 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "core/statistics.hpp"
+#include "core/units.hpp"
 #include "data/text.hpp"
+#include "diagnosis/diagnosis_result.hpp"
+#include "document/number.hpp"
 #include "document/sentence.hpp"
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
+
 namespace {
 
 constexpr std::size_t most_values = 8;  // of parameters
@@ -238,6 +244,557 @@ std::string where_words(const Diagnosis& d) {
       diameter_words(worst->diameter), worst->slowest, worst->fastest,
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
       std::abs(worst->standardised));
+}
+
+namespace {
+
+std::string headline_of_several(const Diagnosis& d) {
+  if (!d.shared_cause.empty()) {
+    return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
+                       cause_words(d.rivals));
+  }
+  std::vector<std::string> doubtful = d.rivals;
+  std::erase_if(doubtful, [&](const std::string& id) {
+    return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
+  });
+  if (!d.common.empty() && !doubtful.empty()) {
+    return fmt::format("What the model misses: {}, together with {}", cause_words(d.common),
+                       cause_words(doubtful, " or "));
+  }
+  if (d.rivals.size() == 1) {
+    return fmt::format("The model misses something that could be {}, but these data cannot tell",
+                       cause_words(d.rivals));
+  }
+  return "The model misses something, and these data cannot tell what: " + cause_words(d.rivals);
+}
+
+}  // namespace
+
+std::string headline(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::adequate:
+      if (!tests_the_curve(d)) return "These points cannot test the model";
+      return d.base.noise_verdict == NoiseVerdict::exceeded && d.spec.law_error > 0.0
+                 ? fmt::format("The model describes these points, if its laws may be wrong by {}",
+                               percent(d.spec.law_error))
+                 : "The model describes these points";
+    case Verdict::cause_named:
+      return "What the model misses: " + cause_words(d.named);
+    case Verdict::not_separable:
+      return headline_of_several(d);
+    case Verdict::unexplained:
+      if (!d.resembles.empty()) {
+        return fmt::format("The misfit has the shape of {}, which cannot be its cause",
+                           cause_words(d.resembles, " or "));
+      }
+      if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
+      if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
+      return rival_errors(d).empty()
+                 ? "The model misses something that nothing in the catalogue explains"
+                 : "Either the errors are larger than stated, or the model misses something that "
+                   "nothing in the catalogue explains";
+  }
+  return "";
+}
+
+namespace {
+
+constexpr std::size_t most_titles = 3;    // of tests that found something
+constexpr std::size_t most_expected = 3;  // effects of stated conditions
+constexpr std::size_t most_impossible = 2;
+constexpr double worth_a_word = 0.01;        // of an error of e
+const double steps_of_sd = std::sqrt(12.0);  // of a reading that is rounded
+
+/// "gas film (gas between the measuring plane and the contact)"
+std::string title_of(const std::string& id) {
+  const Mechanism* mechanism = find_mechanism(id);
+  return mechanism == nullptr ? words_of(id)
+                              : fmt::format("{} ({})", words_of(id), mechanism->info.title);
+}
+
+std::string titles_of(const std::vector<std::string>& ids, const char* between) {
+  std::vector<std::string> titles;
+  for (const std::string& id : ids) titles.push_back(title_of(id));
+  return fmt::format("{}", fmt::join(titles, between));
+}
+
+std::string short_titles(const std::vector<std::string>& ids) {
+  std::vector<std::string> titles;
+  for (const std::string& id : ids) titles.push_back(words_of(id));
+  return fmt::format("{}", fmt::join(titles, ", "));
+}
+
+std::string gain_words(const Diagnosis& d) {
+  if (!d.gain || d.gain->folds.empty()) return "";
+  if (!d.gain->any_chosen()) {
+    return "Points that were held out say nothing of it: without them, the others are too few to "
+           "ask for more than the base model.";
+  }
+  std::string text = fmt::format(
+      "Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
+      d.gain->rmse_extended, d.gain->rmse_base);
+  if (d.gain->relative < 0.0) {
+    text += fmt::format(" ({:.0f} % more: what holds elsewhere does not hold there)",
+                        -100.0 * d.gain->relative);
+  } else if (d.gain->lower && d.gain->upper) {
+    text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
+                        100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
+  }
+  return text + ".";
+}
+
+/// The candidate of one mechanism; null where it was not tried.
+const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
+  const auto found =
+      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const CandidateResult& c) {
+        return c.candidate.added.size() == 1 && c.candidate.added.front() == id;
+      });
+  return found == d.candidates.end() ? nullptr : &*found;
+}
+
+/// The experiment that takes the least effort.
+std::string experiment_words(const Diagnosis& d) {
+  if (d.experiments.empty()) {
+    return has_one_size(d.base.data)
+               ? "Measure spheres of other diameters: how an effect depends on size tells one "
+                 "cause "
+                 "from another."
+               : "No further impacts of these spheres on this surface would tell them apart: "
+                 "measure another pair of materials, or with another instrument.";
+  }
+  const NextExperiment& next = d.experiments.front();
+  const std::string impacts =
+      fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
+                  diameter_words(next.diameter), next.velocity);
+  const std::string apart = fmt::format(
+      "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
+      next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
+  if (next.kind == ExperimentKind::condition) {
+    return fmt::format("To find out, {} and measure {}: {}.", next.doing, impacts, apart);
+  }
+  return fmt::format("To find out, measure {}: {}.", impacts, apart);
+}
+
+std::string dominant_point_words(const Diagnosis& d) {
+  const std::optional<std::size_t> worst = dominant_point(d);
+  if (!worst) return "";
+  const Observation& point = d.base.data.points[*worst];
+  return fmt::format(
+      "Most of the misfit is one point, in line {}, of {} at {:.3g} m/s (e = {:.3g}): look at that "
+      "first.",
+      point.line, diameter_words(point.diameter), point.velocity, point.restitution);
+}
+
+std::string errors_words(const UnstatedErrors& errors) {
+  const std::string p = fmt::format("(p = {:.2g})", errors.remaining_p);
+  switch (errors.source) {
+    case ErrorSource::shared_setting:
+      return fmt::format(
+          "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
+          "leaves nothing systematic {}: repeating one setting does not average it out, and "
+          "setting_sd = {:.2g} under [noise] takes it into the fit",
+          errors.value, p, errors.value);
+    case ErrorSource::velocity_errors:
+      return fmt::format(
+          "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} under [noise]) "
+          "leave nothing systematic {}",
+          100.0 * errors.value, errors.value, p);
+    case ErrorSource::height_readings:
+      return fmt::format(
+          "heights read with an error of {:.2g} mm each, a step of {:.2g} mm, leave nothing "
+          "systematic {}: let restitution_sd contain it",
+          errors.value / units::mm, steps_of_sd * errors.value / units::mm, p);
+    case ErrorSource::time_readings:
+      return fmt::format(
+          "times read with an error of {:.2g} ms each, a step of {:.2g} ms, leave nothing "
+          "systematic {}: let restitution_sd contain it",
+          errors.value / units::ms, steps_of_sd * errors.value / units::ms, p);
+    case ErrorSource::larger_deviations:
+      break;
+  }
+  return fmt::format("standard deviations {:.2g} times as large leave nothing systematic {}",
+                     errors.value, p);
+}
+
+std::string rival_errors_words(const Diagnosis& d) {
+  const std::vector<UnstatedErrors> rivals = rival_errors(d);
+  if (rivals.empty()) return "";
+  std::vector<std::string> words;
+  for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
+  const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
+  return fmt::format(
+      "Unstated errors would explain the misfit {}: {}.",
+      !d.extended ? "without any cause"
+      : behind > d.options.margin
+          ? fmt::format("too, though less well (AICc larger by {:.0f} than with two causes)",
+                        behind)
+          : "as well",
+      fmt::join(words, "; "));
+}
+
+/// What the residuals show.
+std::string found_words(const Diagnosis& d) {
+  std::vector<std::string> found;
+  for (const StructureTest& test : d.structure.tests) {
+    if (test.p_value > 0.01) continue;
+    if (found.size() == most_titles) {
+      found.emplace_back("and more");
+      break;
+    }
+    const bool one_size = test.question == StructureQuestion::size && has_one_size(d.base.data);
+    found.push_back(one_size ? "the points as a whole lie above or below the model"
+                             : words_of(test.question));
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
+}
+
+/// A damping of the base model that its upper bound holds back.
+std::string bound_words(const Diagnosis& d) {
+  const std::vector<std::size_t> held = held_back_dampings(d.base);
+  if (held.empty()) return "";
+  const ParameterSlot& slot = d.base.model.slots[held.front()];
+  return fmt::format(
+      "{} rests on its upper bound of {:.3g}{}: widen the bounds before reading anything into "
+      "the misfit.",
+      slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
+}
+
+/// What these points cannot show.
+std::string untested_words(const Diagnosis& d) {
+  if (!d.base.data.noise.known) {
+    return "The noise is neither stated nor to be seen, so that nothing can be tested.";
+  }
+  if (tests_the_curve(d)) return "";
+  if (evidence_for(d).rebounds == 0) return "No sphere rebounded: nothing about e can be seen.";
+  std::set<std::pair<double, double>> places;
+  for (const Observation& point : d.base.data.points) {
+    places.insert({point.velocity, point.diameter});
+  }
+  return places.size() == 1
+             ? "One velocity: nothing about how e varies with V can be seen."
+             : fmt::format(
+                   "{} pairs of velocity and size determine {} free parameters and test "
+                   "nothing else of the curve.",
+                   places.size(), evidence_for(d).free);
+}
+
+/// What is wrong.
+std::string wrong_words(const Diagnosis& d) {
+  if (d.structure.tests.empty()) return "";
+  const std::string p = p_words(d.structure.p_value, d.structure.simulated);
+  if (d.verdict == Verdict::adequate) {
+    if (!tests_the_curve(d)) {
+      return fmt::format("The points scatter about the curve no more than stated ({}).", p);
+    }
+    return fmt::format(
+        "Nothing systematic is left in the residuals of the fitted model ({}: the share of data "
+        "sets simulated with the model that look as systematic).",
+        p);
+  }
+  const std::string where = where_words(d);
+  if (!where.empty()) return fmt::format("{} ({}).", where, p);
+  const std::string found = found_words(d);
+  return fmt::format("The fitted model leaves structure in its residuals ({}){}{}.", p,
+                     found.empty() ? "" : ": ", found);
+}
+
+/// What the headline does not say of several possible causes.
+std::string several_words(const Diagnosis& d) {
+  if (has_one_size(d.base.data)) {
+    return "One diameter does not show how an effect depends on size, which is what tells one "
+           "cause from another.";
+  }
+  if (!d.shared_cause.empty()) return "These data cannot tell which of its laws holds.";
+  if (!d.alone.empty()) {
+    return fmt::format(
+        "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
+        "is as likely, if its law is wrong by more than laws are taken to be.",
+        words_of(d.extended->candidate.name()), short_titles(d.alone));
+  }
+  if (d.extended->candidate.added.size() > 1) {
+    return d.common.empty() ? "It takes two causes at once, and these data cannot tell which."
+                            : "It takes two causes at once.";
+  }
+  return "It may be another cause, too.";
+}
+
+/// What has the shape of the misfit, and why it is not believed all the same.
+std::string resembling_words(const Diagnosis& d) {
+  const CandidateResult* const first = single_named(d, d.resembles.front());
+  const std::string shape =
+      fmt::format("The misfit looks like {}", titles_of(d.resembles, ", or like "));
+  return first == nullptr
+             ? shape + ", which cannot be."
+             : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
+                           shape, because_words(*first));
+}
+
+/// Why nothing is named.
+std::string unexplained_words(const Diagnosis& d) {
+  if (!d.resembles.empty()) return resembling_words(d);
+  if (series_differ(d)) {
+    return "Nothing in the catalogue tells the series apart: fit each by itself, or state what "
+           "differs between them as a condition.";
+  }
+  if (!d.outdone.empty()) {
+    return fmt::format(
+        "It would be explained by {}, but as well by unstated errors, which assume less: no cause "
+        "is named.",
+        words_of(d.outdone));
+  }
+  if (!rival_errors(d).empty()) return rival_errors_words(d);
+  if (dominant_point(d)) return dominant_point_words(d);
+  if (const CandidateResult* const closest = closest_cause(d)) {
+    return fmt::format(
+        "Nothing in the catalogue explains it; the closest is {}, which takes {:.0f} % of the "
+        "misfit and leaves more than noise ({}).",
+        title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
+        p_words(closest->remaining_p, quick_samples));
+  }
+  if (!tests_the_curve(d)) return "The points scatter more than their stated standard deviations.";
+  if (!d.structure.smooth) {
+    return "Nothing in the catalogue explains it, and it has no shape in velocity and size: the "
+           "points scatter more than their stated standard deviations.";
+  }
+  return "Nothing in the catalogue explains it, alone or two at a time.";
+}
+
+/// What to do where nothing is named.
+std::string advice_words(const Diagnosis& d) {
+  if (series_differ(d)) return "";   // it has been said
+  if (dominant_point(d)) return "";  // it has been said
+  if (!rival_errors(d).empty() || !d.structure.smooth) {
+    return "State the errors that the measurement has (restitution_sd, velocity_sd, setting), and "
+           "ask again.";
+  }
+  if (d.free_form_p <= 0.01) {
+    return "Look at the rows themselves: a smooth function of velocity and size does not describe "
+           "the misfit either.";
+  }
+  return "A smooth function of velocity and size describes it: there is an effect that this "
+         "program does not know, a law that differs from the catalogue's, or something that acts "
+         "on "
+         "some of the points only.";
+}
+
+/// An adequate model that nothing could have shown wrong.
+std::string evidence_words(const Diagnosis& d) {
+  if (!tests_the_curve(d)) return "";  // it has been said
+  const Evidence evidence = evidence_for(d);
+  if (!evidence.hardly_any()) return "";
+  return fmt::format(
+      "With {} points that rebounded and {} free parameters hardly any misfit could have been "
+      "seen: this is no evidence for the model.",
+      evidence.rebounds, evidence.free);
+}
+
+/// That the errors of the materials make the model adequate, and which of them; empty when not.
+std::string materials_words(const Diagnosis& d) {
+  if (!d.materials) return "";
+  std::string moved;
+  for (std::size_t k = 0; k < d.base.constants_moved.size(); ++k) {
+    const double by = d.base.constants_moved[k];
+    constexpr double least_move = 0.5;  // standard deviations
+    if (std::abs(by) < least_move) continue;
+    moved += fmt::format("{}{} by {:+.1f}", moved.empty() ? ": " : ", ",
+                         d.base.model.slots[d.base.model.first_constant() + k].label(), by);
+  }
+  return fmt::format(
+      "It does so within the errors of the material constants{}{}; with exact constants structure "
+      "would be left (p = {:.2g}).",
+      moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
+}
+
+/// What exact laws would leave; empty where that is nothing.
+std::string if_exact_words(const Diagnosis& d) {
+  if (!d.if_exact || d.if_exact->p_value > d.options.level) return "";
+  const std::vector<std::string>& ids = d.if_exact->listed;
+  return fmt::format(
+      "Taken as exact, the model would leave structure ({}){}.",
+      p_words(d.if_exact->p_value, quick_samples),
+      ids.empty() ? ", like nothing in the catalogue" : ", most like " + cause_words(ids, " or "));
+}
+
+/// What these points could have shown: one sentence for each cause, one for none.
+std::vector<std::string> rates_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  if (!d.own_design) return words;
+  const auto percent = [](int part, int whole) {
+    return fmt::format("{:.0f} %", 100.0 * part / whole);
+  };
+  for (const Detection& one : d.own_design->detection) {
+    words.push_back(fmt::format(
+        "With these {} points recoil would have named {} in {} of cases where it {}, listed it "
+        "among others in {}, and named something else in {} ({} simulated data sets).",
+        d.base.data.points.size(), words_of(one.id), percent(one.named, one.datasets),
+        one.strength == 1.0 ? std::string("acts as found")
+                            : fmt::format("has {:.2g} of the effect found", one.strength),
+        percent(one.listed, one.datasets), percent(one.wrong, one.datasets), one.datasets));
+  }
+  words.push_back(fmt::format(
+      "Where nothing acts beside the model it would have seen something in {} of cases ({} "
+      "simulated data sets).",
+      percent(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
+  return words;
+}
+
+/// The middle one of the standard deviations of e that the points have.
+double typical_error(const Diagnosis& d) {
+  std::vector<double> errors;
+  for (const Observation& point : d.base.data.points) errors.push_back(point.weights.sd);
+  return median(std::move(errors));
+}
+
+/// What the conditions of the data say must be there, the largest effect first.
+std::vector<std::string> expected_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const ExpectedEffect& effect : d.expected) {
+    if (words.size() == most_expected) break;
+    if (std::abs(effect.change) < worth_a_word * typical_error(d)) break;
+    words.push_back(fmt::format(
+        "At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
+        condition_words(effect.condition), effect.stated,
+        unit_suffix(info_of(effect.condition).unit), title_of(effect.id), effect.change,
+        diameter_words(effect.diameter), effect.velocity));
+  }
+  return words;
+}
+
+/// Those that would have gained as much as the answer, but are not possible.
+std::vector<std::string> impossible_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  const double answer = d.extended ? d.extended->delta_aicc + d.options.margin : 0.0;
+  for (const CandidateResult& c : d.candidates) {
+    const bool said = !d.resembles.empty() && d.resembles.front() == c.candidate.name();
+    if (said || c.plausible || c.delta_aicc >= answer) continue;
+    if (words.size() == most_impossible) break;
+    const bool listed =
+        std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
+    words.push_back(as_sentence(listed
+                                    ? fmt::format("{} is listed though hardly plausible ({})",
+                                                  words_of(c.candidate.name()), set_aside_words(c))
+                                    : fmt::format("{} is set aside because {}",
+                                                  words_of(c.candidate.name()), because_words(c))));
+  }
+  return words;
+}
+
+std::string verdict_words(const AnswerForAll& answer) {
+  const std::string verdict = to_string(answer.verdict);
+  const std::vector<std::string>& ids = !answer.named.empty()    ? answer.named
+                                        : !answer.rivals.empty() ? answer.rivals
+                                                                 : answer.resembles;
+  return ids.empty() ? verdict : fmt::format("{} ({})", verdict, fmt::join(ids, ", "));
+}
+
+/// What knowing how velocities were measured would exclude.
+std::string method_words(const Diagnosis& d) {
+  const bool unknown =
+      std::any_of(d.datasets.begin(), d.datasets.end(),
+                  [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
+  std::vector<std::string> words;
+  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
+    for (const std::string& id : *ids) {
+      const Mechanism* const mechanism = find_mechanism(id);
+      if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
+      std::vector<std::string> methods;
+      for (const Method method : mechanism->info.methods) {
+        methods.push_back(words_of(to_string(method)));
+      }
+      words.push_back(fmt::format("{} only with {}", words_of(id), fmt::join(methods, " or ")));
+    }
+  }
+  if (!unknown || words.empty()) return "";
+  return fmt::format(
+      "The dataset does not say how velocities were measured (recoil.method), which would decide "
+      "some of these: {}.",
+      fmt::join(words, ", "));
+}
+
+/// Which points were set aside, and what the answer would be with them; empty where none were.
+std::string outlying_words(const Diagnosis& d) {
+  if (d.outlying.empty()) return "";
+  std::vector<std::string> rows;
+  for (const OutlyingPoint& point : d.outlying) {
+    rows.push_back(fmt::format(
+        "line {}{} ({} at {:.3g} m/s, e = {:.3g}: {:+.1f} standard deviations)", point.line,
+        d.datasets.size() > 1 ? " of " + d.datasets[point.dataset].id : "",
+        diameter_words(point.diameter), point.velocity, point.restitution, point.residual));
+  }
+  return fmt::format(
+      "{} so far from what the others predict that {} set aside: {}. With {} the answer would be "
+      "{}.",
+      rows.size() == 1 ? "One point lies" : fmt::format("{} points lie", rows.size()),
+      rows.size() == 1 ? "it was" : "they were", fmt::join(rows, "; "),
+      rows.size() == 1 ? "it" : "them", verdict_words(*d.for_all));
+}
+
+}  // namespace
+
+std::vector<std::string> answer_sentences(const Diagnosis& d) {
+  std::vector<std::string> sentences = {outlying_words(d), bound_words(d), wrong_words(d),
+                                        untested_words(d)};
+  switch (d.verdict) {
+    case Verdict::adequate:
+      sentences.push_back(evidence_words(d));
+      sentences.push_back(materials_words(d));
+      sentences.push_back(if_exact_words(d));
+      break;
+    case Verdict::cause_named:
+      sentences.push_back(d.named.size() == 1
+                              ? fmt::format("Of all mechanisms in the catalogue, only {} explains "
+                                            "it.",
+                                            title_of(d.named.front()))
+                              : fmt::format("Of all mechanisms in the catalogue, only {} together "
+                                            "explain it.",
+                                            titles_of(d.named, " and ")));
+      sentences.push_back(gain_words(d));
+      break;
+    case Verdict::not_separable:
+      sentences.push_back(several_words(d));
+      sentences.push_back(experiment_words(d));
+      break;
+    case Verdict::unexplained:
+      sentences.push_back(unexplained_words(d));
+      sentences.push_back(advice_words(d));
+      break;
+  }
+  std::erase(sentences, "");
+  const std::vector<std::string> rates = rates_words(d);
+  sentences.insert(sentences.end(), rates.begin(), rates.end());
+  return sentences;
+}
+
+std::vector<std::string> answer_notes(const Diagnosis& d) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  };
+  if (d.extended) {
+    notes.push_back(fmt::format("The extended model takes {}: {}.",
+                                words_of(d.extended->candidate.name()),
+                                parameters_words(*d.extended)));
+    if (d.verdict != Verdict::cause_named) notes.push_back(gain_words(d));
+  }
+  const bool told = d.verdict == Verdict::unexplained && d.resembles.empty() && d.outdone.empty();
+  if (!told) notes.push_back(rival_errors_words(d));
+  const bool shown = d.verdict != Verdict::adequate && !where_words(d).empty();
+  if (const std::string found = found_words(d); shown && !found.empty()) {
+    notes.push_back(fmt::format("What the residuals show: {}.", found));
+  }
+  add(expected_words(d));
+  if (d.verdict != Verdict::adequate) {
+    add(impossible_words(d));
+    notes.push_back(method_words(d));
+  }
+  std::erase(notes, "");
+  return notes;
+}
+
+std::string answer_words(const Diagnosis& d) {
+  std::vector<std::string> all = answer_sentences(d);
+  for (std::string& note : answer_notes(d)) all.push_back(std::move(note));
+  return fmt::format("{}", fmt::join(all, " "));
 }
 
 }  // namespace recoil

@@ -5,7 +5,7 @@
 
 #include "diagnosis/diagnosis_result.hpp"
 
-/// What a diagnosis has to say, in words.
+/// A diagnosis in words.
 namespace recoil {
 
 /// "p = 0.03", or "p < 0.002" where no simulated data set looked as systematic.
@@ -42,10 +42,23 @@ std::string implausible_words(const FoundParameter& parameter);
 /// Why a candidate is not taken for a cause; empty where it is.
 std::string set_aside_words(const CandidateResult& candidate);
 
-/// The same in a word or two, for a picture.
+/// The same in a word or two, for a table.
 std::string short_set_aside_words(const CandidateResult& candidate);
 
 /// What has to be known of the diagnosis as a whole.
 std::vector<std::string> diagnosis_warnings(const Diagnosis& diagnosis);
+
+/// The answer in one line, without a full stop.
+std::string headline(const Diagnosis& diagnosis);
+
+/// Three sentences at most: what is wrong, what it is, and what that gains or what to do next.
+std::vector<std::string> answer_sentences(const Diagnosis& diagnosis);
+
+/// What else there is to know, a sentence or two each, the most important first: points that were
+/// set aside, values, errors that would do as well, what conditions say must be there.
+std::vector<std::string> answer_notes(const Diagnosis& diagnosis);
+
+/// All of that in one text.
+std::string answer_words(const Diagnosis& diagnosis);
 
 }  // namespace recoil

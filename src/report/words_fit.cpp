@@ -12,7 +12,6 @@
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {

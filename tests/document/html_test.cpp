@@ -44,14 +44,13 @@ TEST(Html, EscapesWhateverItIsGiven) {
   document.subtitle = hostile;
   document.foot = hostile;
   document.foreword = {Banner{hostile, hostile}, Remark{hostile, hostile, hostile}};
-  document.sections = {
-      {hostile,
-       hostile,
-       hostile,
-       {table, Paragraph{strong(hostile)}, Paragraph{code(hostile)},
-        Paragraph{link(hostile, hostile)}, List{{hostile}}, Glossary{{{hostile, hostile}}},
-        Figures{{{hostile, hostile, hostile, "<svg/>"}}}},
-       hostile}};
+  document.sections = {{hostile,
+                        hostile,
+                        hostile,
+                        {table, Paragraph{strong(hostile)}, Paragraph{code(hostile)},
+                         Paragraph{link(hostile, hostile)}, List{{hostile}},
+                         Figures{{{hostile, hostile, hostile, "<svg/>"}}}},
+                        hostile}};
   const std::string page = html_page(document);
   EXPECT_THAT(page, Not(HasSubstr("<script>")));
   EXPECT_THAT(page, HasSubstr(safe));
@@ -87,17 +86,13 @@ TEST(Html, ContentsListWhatIsThere) {
 TEST(Html, CarriesTheDataOfPicturesAsJsonWithoutMarkup) {
   Figure figure{"one", "", "A caption", "<svg viewBox=\"0 0 1 1\"></svg>"};
   figure.csv = "a</script><b>,\"c\"\n1,,,,,2,,3,&\n";
-  figure.explored = R"({"name":"</script>"})";
   Document document;
   document.name = "my \"fit\"";
-  document.script = "const mine = 1;\n";
   document.sections = {{"s", "S", {}, {Figures{{figure}}}}};
   const std::string page = html_page(document);
   EXPECT_THAT(page, HasSubstr("<script type=\"application/json\" class=\"csv\">\"a\\u003c/script>"
-                              "\\u003cb>,\\\"c\\\"\\n1&5;2,,3,&0;\\n\"</script>"));
-  EXPECT_THAT(page, HasSubstr("class=\"explore\">{\"name\":\"\\u003c/script>\"}</script>"));
+                              "\\u003cb>,\\\"c\\\"\\n1,,,,,2,,3,&\\n\"</script>"));
   EXPECT_THAT(page, HasSubstr("<body data-name=\"my &quot;fit&quot;\">"));
-  EXPECT_THAT(page, HasSubstr("const mine = 1;\n</script>\n</body>"));
 }
 
 TEST(Html, HostileNamesAreTextAndNothingReachesTheNetwork) {
@@ -135,7 +130,6 @@ TEST(Html, HostileNamesAreTextAndNothingReachesTheNetwork) {
 
 TEST(Html, PageWithoutPicturesHasNoScript) {
   Document document;
-  document.script = "never();";
   document.sections = {{"s", "S", {}, {Paragraph{"words"}}}};
   EXPECT_THAT(html_page(document), Not(HasSubstr("<script")));
 }

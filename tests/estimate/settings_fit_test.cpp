@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/shared_settings.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

@@ -73,15 +73,10 @@ TEST(PairCommand, PairsThatAreMostlyFalseAreSaidToBeSo) {
   EXPECT_NE(wrong.out.find("(--height)"), std::string::npos) << wrong.out;
 }
 
-TEST(PairCommand, HistogramsAndPictures) {
+TEST(PairCommand, WritesHistograms) {
   const Workplace place;
   place.write("e.csv", small_stream().csv);
   ASSERT_EQ(place.run({"pair", "e.csv", "--unit", kUnits, "--histograms", "h"}).status, 0);
-  for (const char* name : {"sizes", "velocities-raw", "velocities-paired", "restitution"}) {
-    const std::string svg = place.read(std::string("h/") + name + ".svg");
-    EXPECT_EQ(svg.rfind("<svg", 0), 0U) << name;
-    EXPECT_EQ(svg.find("stroke=\"none\" id="), std::string::npos) << "stated twice: no XML";
-  }
   EXPECT_EQ(place.read("h/sizes.csv").rfind("lower,upper,count\n", 0), 0U);
   const std::string bins = place.read("h/velocities-raw.csv");
   EXPECT_NE(bins.find("\nsturges,"), std::string::npos);

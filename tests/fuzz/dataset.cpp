@@ -8,7 +8,7 @@
 #include <string>
 
 #include "check.hpp"
-#include "report/dataset_page.hpp"
+#include "report/words_dataset.hpp"
 
 namespace {
 

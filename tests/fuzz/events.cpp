@@ -12,7 +12,7 @@
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"
-#include "report/pairing_document.hpp"
+#include "report/pairing_report.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "plot/gnuplot_script.hpp"
+#include "plot/draw.hpp"
 
 namespace recoil::plot {
 namespace {
@@ -23,21 +23,6 @@ TEST(Range, OfALogarithmicAxisHasItsMarginInTheRatio) {
   const Range range = log_range_of({0.0, 1.0, 100.0, -3.0}, 0.5);
   EXPECT_NEAR(range.lower, 0.1, 1e-12);
   EXPECT_NEAR(range.upper, 1000.0, 1e-9);
-}
-
-TEST(Range, BetweenQuantiles) {
-  const Range range = quantile_range({5.0, 1.0, 2.0, NAN, 3.0, 4.0}, 0.25, 0.75);
-  EXPECT_EQ(range.lower, 2.0);
-  EXPECT_EQ(range.upper, 4.0);
-}
-
-TEST(Scaling, BringsNumbersBetweenOneAndAThousand) {
-  EXPECT_EQ(scaling_for(0.5, "s/m").unit, "s/m");
-  const Scaling small = scaling_for(3.1e-3, "s/m");
-  EXPECT_DOUBLE_EQ(small.factor, 1e3);
-  EXPECT_EQ(small.unit, "10⁻³ s/m");
-  EXPECT_EQ(scaling_for(2.5e12, "Pa").unit, "10¹² Pa");
-  EXPECT_EQ(scaling_for(0.0, "Pa").factor, 1.0);
 }
 
 TEST(Ticks, OfALogarithmicAxisLieInItsRange) {
@@ -62,26 +47,6 @@ TEST(Names, AreFitForIds) {
   EXPECT_EQ(plot_name("'><"), "f-");
 }
 
-TEST(Data, OfAPictureAreColumnsWithUnits) {
-  Points points{{1.0, 2.0}, {0.5, 0.6}};
-  points.with_sd({0.1, 0.2});
-  points.name = "measured";
-  Plot plot;
-  plot.x = {"V", "m/s"};
-  plot.y = {"e"};
-  plot.layers = {Rule{}, points, Line{{1.0}, {0.7}}};
-  const Picture picture{"p", "", 1, 1, {plot}};
-  const std::vector<DataTable> tables = data_of(picture);
-  ASSERT_EQ(tables.size(), 2U) << "a rule holds no data";
-  EXPECT_EQ(tables[0].name, "measured");
-  ASSERT_EQ(tables[0].columns.size(), 4U);
-  EXPECT_EQ(tables[0].columns[0].name, "V");
-  EXPECT_EQ(tables[0].columns[0].unit, "m/s");
-  EXPECT_EQ(tables[0].columns[1].values, points.y);
-  EXPECT_EQ(tables[0].columns[3].name, "e, upper");
-  EXPECT_NEAR(tables[0].columns[3].values[1], 0.8, 1e-12);
-}
-
 TEST(Csv, SharesTheRowsOfLayersOverTheSamePlaces) {
   Plot plot;
   plot.x = {"V", "m/s"};
@@ -101,21 +66,19 @@ TEST(Csv, SharesTheRowsOfLayersOverTheSamePlaces) {
             "2.5,,,,\n");
 }
 
-TEST(Csv, HasTheNamesThatAnAxisGivesAndTheHeadingsOfPlots) {
+TEST(Csv, HasErrorBarsValuesAndUnits) {
+  Points points{{1.0, 2.0}, {0.5, 0.6}};
+  points.with_sd({0.1, 0.2});
+  points.name = "measured";
   Plot plot;
-  plot.heading = "one\nof two";
-  plot.x = {"C_H", "s/m"};
-  plot.y.ticks = {{0.0, "Wald"}, {1.0, "BCa"}, {2.0, "2"}};
-  plot.layers = {Spans{{1.0, 0.0, 2.0}, {1.0, 3.0, 5.0}, {2.0, 4.0, 6.0}}};
-  Plot second;
-  second.layers = {Discs{{1.0}, {2.0}, {3.0}}};
-  EXPECT_EQ(csv_of({"p", "", 1, 1, {plot, second}}),
-            "one of two: y,\"one of two: C_H, lower [s/m]\",\"one of two: C_H, upper [s/m]\","
-            "plot 2: x,plot 2: y,plot 2: value\n"
-            "BCa,1,2,,,\n"
-            "Wald,3,4,,,\n"
-            "2,5,6,,,\n"
-            ",,,1,2,3\n");
+  plot.x = {"V", "m/s"};
+  plot.y = {"e"};
+  plot.layers = {points, Discs{{1.0}, {2.0}, {3.0}}};
+  EXPECT_EQ(csv_of({"p", "", 1, 1, {plot}}),
+            "V [m/s],measured: e,\"measured: e, lower\",\"measured: e, upper\",e,value\n"
+            "1,0.5,0.4,0.6,,\n"
+            "2,0.6,0.4,0.8,,\n"
+            "1,,,,2,3\n");
 }
 
 TEST(Csv, OfAPictureWithoutDataIsEmpty) {

@@ -1,6 +1,6 @@
-#include "predict/published_captures.hpp"
-
 #include <gtest/gtest.h>
+
+#include "predict/capture_comparison.hpp"
 
 namespace {
 

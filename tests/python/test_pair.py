@@ -1,4 +1,4 @@
-"""recoil.pair: the command's digits, frames, pictures and mistakes."""
+"""recoil.pair: the command's digits, frames and mistakes."""
 
 import io
 import json
@@ -63,12 +63,6 @@ def test_what_was_put_in_is_found(run7):
     data = recoil.Dataset.from_pandas(
         frame, "run7", provenance="synthetic", like=recoil.load_dataset("datasets/wall1990-mica"))
     assert len(data) == len(frame)
-
-
-def test_its_pictures(run7):
-    found = recoil.pair(run7, units=UNITS)
-    assert {"sizes", "velocities-raw", "velocities-paired", "restitution"} <= set(found.pictures)
-    assert "<svg" in found.svg("restitution")
 
 
 MISTAKES = [

@@ -9,8 +9,7 @@
 
 #include "document/html.hpp"
 #include "example_analysis.hpp"
-#include "report/experiment_figures.hpp"
-#include "report/fit_sections.hpp"
+#include "report/fit_report.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
 #include "support/command.hpp"
@@ -76,34 +75,6 @@ TEST_F(Browser, ShowsThePageWithoutScript) {
       << "what only a script can do is not there";
 }
 
-TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
-  Distributions shown;
-  for (int i = 0; i < 200; ++i) {
-    shown.raw_velocities.push_back(std::sin(i));
-    shown.paired_velocities.push_back(std::cos(i));
-    shown.incoming_sizes.push_back((40.0 + 10.0 * std::sin(7 * i)) * 1e-6);
-  }
-  PointMean point;
-  point.series = "run";
-  point.velocity = 1.0;
-  point.restitution = 0.8;
-  point.restitution_sd = 0.01;
-  point.rebounds = 40;
-  Averages averages;
-  averages.points = {point, point};
-  averages.points.back().velocity = 2.0;
-  std::vector<Figure> figures;
-  for (plot::Picture& picture : experiment_pictures(shown, averages, "a synthetic run")) {
-    figures.push_back(figure_of(std::move(picture), "a caption"));
-  }
-  Document page;
-  page.title = "An experiment";
-  page.heading = page.title;
-  page.foot = "a test";
-  page.sections = {{"all", "All", {}, {Figures{figures}}}};
-  EXPECT_EQ(open(html_page(page), 4), 0);
-}
-
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(fit_html(sample::two_datasets()), 11), 0); }
 
 TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
@@ -126,7 +97,7 @@ TEST_F(Browser, ComplainsOfAMissingPlot) {
 
 TEST_F(Browser, ComplainsOfAnEmptyPlot) {
   std::string broken = page_;
-  const auto begin = broken.find("<g id=\"restitution-1-gnuplot_canvas\"");
+  const auto begin = broken.find("<g id=\"restitution-1_plot_1\"");
   ASSERT_NE(begin, std::string::npos);
   broken.erase(begin, broken.find("</svg>", begin) - begin);
   EXPECT_EQ(open(broken, 1), 1);

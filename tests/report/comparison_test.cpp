@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "report/comparison_page.hpp"
+#include "report/comparison_report.hpp"
 
 namespace recoil {
 namespace {

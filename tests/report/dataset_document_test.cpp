@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "report/dataset_page.hpp"
 #include "report/words_dataset.hpp"
 #include "support/dataset_folder.hpp"
 

@@ -6,9 +6,8 @@
 
 #include "core/units.hpp"
 #include "example_analysis.hpp"
-#include "report/diagnosis_figures.hpp"
-#include "report/experiment_figures.hpp"
-#include "report/fit_figures.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/fit_report.hpp"
 
 namespace recoil {
 namespace {
@@ -16,7 +15,6 @@ namespace {
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 template <class Kind>
 std::vector<Kind> layers_of(const plot::Plot& shown) {
@@ -42,8 +40,8 @@ const plot::Plot& plot_of(const Figure& figure, std::size_t index = 0) {
 }
 
 bool inside(double value, const plot::Axis& axis) {
-  const double low = std::min(*axis.from, *axis.to);
-  const double high = std::max(*axis.from, *axis.to);
+  const double low = std::min(axis.from, axis.to);
+  const double high = std::max(axis.from, axis.to);
   return value >= low && value <= high;
 }
 
@@ -120,30 +118,11 @@ TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {
     const auto figures = residual_figures(sample::four_diameters());
     ASSERT_EQ(figures.size(), 1U);
     const plot::Plot& plot = plot_of(figures[0]);
-    EXPECT_EQ(*plot.y.from, -*plot.y.to);
+    EXPECT_EQ(plot.y.from, -plot.y.to);
     std::vector<double> places;
     for (const plot::Rule& rule : layers_of<plot::Rule>(plot)) places.push_back(rule.at);
     EXPECT_THAT(places, ElementsAre(-2.0, 2.0, 0.0));
   }
-}
-
-CandidateResult candidate(const std::string& id, double delta_aicc) {
-  CandidateResult made;
-  made.candidate.added = {id};
-  made.delta_aicc = delta_aicc;
-  return made;
-}
-
-TEST(RankingFigures, HaveABarForEveryCandidateThatGains) {
-  Diagnosis d;
-  d.candidates = {candidate("gas_film", -3.0), candidate("capillary", 4.0),
-                  candidate("plastic_yield", -20.0)};
-  d.pairs = {candidate("probe_plane", -7.0), candidate("size_law", 1.0)};
-  const plot::Plot ranking = plot_of(ranking_figures(d).at(0));
-  std::vector<std::string> names;
-  for (const auto& tick : ranking.y.ticks) names.push_back(tick.label);
-  EXPECT_THAT(names, ElementsAre("plastic yield", "probe plane", "gas film"));
-  EXPECT_THAT(ranking_figures(Diagnosis{}), IsEmpty());
 }
 
 TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
@@ -164,54 +143,6 @@ TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
   EXPECT_THAT(discs.x, ElementsAre(2.0, 2.0));
   EXPECT_EQ(map.y.unit, "µm");
   EXPECT_TRUE(inside(3.0, map.y) && inside(8.0, map.y));
-}
-
-TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {
-  Diagnosis d;
-  d.candidates = {candidate("gas_film", -19.0), candidate("plastic_yield", -20.0)};
-  d.candidates[0].set_aside = SetAside::not_possible;
-  const double end = *plot_of(ranking_figures(d).at(0)).x.to;
-  EXPECT_GT(end, 22.0);
-  EXPECT_LT(end, 40.0);                               // the bars are what the picture is about
-  d.candidates[0].set_aside = SetAside::at_the_edge;  // in more words
-  EXPECT_GT(*plot_of(ranking_figures(d).at(0)).x.to, 1.1 * end);
-  EXPECT_LT(*plot_of(ranking_figures(d).at(0)).x.to, 45.0);
-}
-
-TEST(ExperimentPictures, BarsAndOutlineHoldTheSameShare) {
-  Distributions shown;
-  for (int i = 0; i < 300; ++i) {
-    shown.raw_velocities.push_back(std::sin(i));
-    shown.paired_velocities.push_back(std::cos(i));
-    shown.incoming_sizes.push_back((40.0 + 10.0 * std::sin(7 * i)) * 1e-6);
-  }
-  const std::vector<plot::Picture> pictures = experiment_pictures(shown, {}, "made up");
-  std::vector<std::string> names;
-  for (const plot::Picture& picture : pictures) names.push_back(picture.name);
-  EXPECT_THAT(names, ElementsAre("sizes", "velocities-raw", "velocities-paired", "restitution"));
-  const plot::Boxes bars = layers_of<plot::Boxes>(pictures[0].plots[0]).at(0);
-  double share = 0.0;
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    share += bars.top[i] * (bars.right[i] - bars.left[i]);
-  }
-  EXPECT_NEAR(share, 100.0, 1e-9);
-  const plot::Line outline = layers_of<plot::Line>(pictures[0].plots[0]).at(0);
-  EXPECT_EQ(outline.y.front(), 0.0);
-  EXPECT_EQ(outline.y.back(), 0.0);
-}
-
-TEST(Figures, HoldTheirDataAsColumnsWithUnits) {
-  const std::vector<plot::DataTable> tables =
-      plot::data_of(restitution_figures(sample::four_diameters()).front().picture);
-  ASSERT_FALSE(tables.empty());
-  for (const plot::DataTable& table : tables) {
-    ASSERT_GE(table.columns.size(), 2U);
-    EXPECT_EQ(table.columns[0].name, "incident velocity V");
-    EXPECT_EQ(table.columns[0].unit, "m/s");
-    for (const plot::Column& column : table.columns) {
-      EXPECT_EQ(column.values.size(), table.columns[0].values.size());
-    }
-  }
 }
 
 }  // namespace

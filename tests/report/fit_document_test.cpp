@@ -12,8 +12,7 @@
 #include "document/terminal.hpp"
 #include "example_analysis.hpp"
 #include "page_checks.hpp"
-#include "report/fit_sections.hpp"
-#include "report/fit_tables.hpp"
+#include "report/fit_report.hpp"
 
 namespace recoil {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis_result.hpp"
-#include "report/diagnosis_headline.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {

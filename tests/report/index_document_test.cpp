@@ -8,6 +8,7 @@
 #include "page_checks.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
+#include "support/document_parts.hpp"
 
 namespace recoil {
 namespace {
@@ -46,7 +47,7 @@ TEST(Index, HasACardPerFit) {
     EXPECT_EQ(card.id, ids[k]);
     EXPECT_EQ(card.address, entries[k].page);
     EXPECT_EQ(figures_of(card).size(), 1U);
-    EXPECT_EQ(tables_of(card).size(), 1U);
+    EXPECT_EQ(support::tables_of(card).size(), 1U);
   }
   EXPECT_EQ(index.foreword.size(), 3U) << "a sentence, and what a reconstruction and measured mean";
   EXPECT_NO_THROW(html_index({}));
@@ -55,7 +56,7 @@ TEST(Index, HasACardPerFit) {
 TEST(Index, ShowsCaptureVelocitiesAndFreeParameters) {
   const Analysis analysis = sample::four_diameters();
   const Document index = index_document({{"a.html", fit_json(analysis)}});
-  const Table& table = *tables_of(index.sections.at(0)).at(0);
+  const Table& table = *support::tables_of(index.sections.at(0)).at(0);
   const auto C_H = index_row(table, "C_H");
   EXPECT_EQ(std::get<Number>(C_H[1]).value, 0.00312);
   EXPECT_NEAR(std::get<NumberRange>(C_H[2]).lower, 0.0027315, 1e-9);

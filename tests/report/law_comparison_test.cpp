@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "report/comparison_page.hpp"
+#include "report/comparison_report.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

@@ -48,7 +48,10 @@ void expect_self_contained(const std::string& html) {
     }
   }
   EXPECT_THAT(html, Not(HasSubstr("@import")));
-  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  for (std::size_t at = 0; (at = html.find("url(", at)) != std::string::npos; ++at) {
+    const std::string target = html.substr(at + 4, html.find(')', at) - at - 4);
+    EXPECT_TRUE(target.starts_with("#") && ids.contains(target.substr(1))) << target;
+  }
   // Scripts are our own: one program, and data that hold no markup. None is loaded, none is begun
   // by what a dataset says.
   const std::size_t programs = occurrences(html, "<script type=\"text/javascript\">");

@@ -1,7 +1,7 @@
-#include "report/pairing_document.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "report/pairing_report.hpp"
 
 namespace recoil {
 namespace {

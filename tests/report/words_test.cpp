@@ -4,9 +4,9 @@
 #include <set>
 
 #include "example_analysis.hpp"
-#include "report/prediction_page.hpp"
+#include "report/prediction_report.hpp"
 #include "report/words_diagnosis.hpp"
-#include "report/words_uncertainty.hpp"
+#include "report/words_fit.hpp"
 
 namespace recoil {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/files.hpp"
 #include "example_analysis.hpp"
-#include "report/fit_sections.hpp"
+#include "report/fit_report.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "support/document_parts.hpp"
 #include "validation/studies/coverage_page.hpp"
 
 namespace recoil {
@@ -78,10 +79,10 @@ TEST(CoverageSummary, HasTheDesignsOfTheGridInItsOrder) {
   study.rows = {row("n20 10 % stated f0-free", "f0", 400, 384, 384),
                 row("n20 equal estimated f0-fixed captures", "C_H", 400, 385, 385)};
   const Document page = coverage_summary({study}, "coverage");
-  const Section* grid = section_of(page, "grid");
+  const Section* grid = support::section_of(page, "grid");
   ASSERT_NE(grid, nullptr);
-  ASSERT_EQ(tables_of(*grid).size(), 1U);
-  const Table& table = *tables_of(*grid).front();
+  ASSERT_EQ(support::tables_of(*grid).size(), 1U);
+  const Table& table = *support::tables_of(*grid).front();
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(plain_text(words_of_cell(table.rows[0][1])), "equal");
   EXPECT_EQ(plain_text(words_of_cell(table.rows[1][1])), "10 %");

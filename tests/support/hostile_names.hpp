@@ -6,7 +6,7 @@
 namespace support {
 
 /// Names of files that mean something in one of the languages that recoil writes: shell, GNU
-/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, gnuplot, CSV, terminals. What runs in
+/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, CSV, terminals. What runs in
 /// them makes a file PWNED.
 inline const std::vector<std::string>& hostile_names() {
   static const std::vector<std::string> names = {

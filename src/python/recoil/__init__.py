@@ -329,18 +329,17 @@ def pair(
         refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")
     if edges and size_classes != 1:
         refuse("size_edges and size_classes are both given", "remove one")
-    arguments = _recoil.PairArguments()
-    arguments.units = dict(units or {})
-    arguments.columns = dict(columns or {})
-    arguments.positive_away = positive == "away"
-    arguments.height, arguments.height_range = height, height_range
-    arguments.keep_height, arguments.keep_later = keep_height, keep_later
-    arguments.diameter_tolerance = diameter_tolerance
-    arguments.velocity_tolerance = velocity_tolerance
-    arguments.threshold, arguments.angle, arguments.lost_share = threshold, angle, lost_share
-    arguments.per_bin, arguments.size_classes = int(per_bin), int(size_classes)
-    arguments.size_edges, arguments.mean_diameter = edges, mean_diameter
-    return Pairing(_recoil.pair(os.fspath(passages), arguments))
+    arguments = {
+        "units": dict(units or {}), "columns": dict(columns or {}),
+        "positive_away": positive == "away", "height": float(height),
+        "height_range": float(height_range), "keep_height": bool(keep_height),
+        "diameter_tolerance": float(diameter_tolerance),
+        "velocity_tolerance": float(velocity_tolerance), "keep_later": bool(keep_later),
+        "threshold": threshold, "angle": angle, "lost_share": lost_share,
+        "per_bin": int(per_bin), "size_classes": int(size_classes), "size_edges": edges,
+        "mean_diameter": bool(mean_diameter),
+    }
+    return Pairing(_recoil.pair(os.fspath(passages), json.dumps(arguments, default=float)))
 
 
 def schema(name: str) -> dict[str, Any]:

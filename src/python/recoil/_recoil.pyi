@@ -105,25 +105,6 @@ def fit(inputs: Inputs, options: Options) -> Analysis: ...
 def coverage(inputs: Inputs, datasets: int, options: Options) -> str: ...
 def compare(named_texts: list[tuple[str, str]]) -> tuple[str, str]: ...
 
-class PairArguments:
-    units: dict[str, str]
-    columns: dict[str, str]
-    positive_away: bool
-    height: float
-    height_range: float
-    keep_height: bool
-    diameter_tolerance: float
-    velocity_tolerance: float
-    keep_later: bool
-    threshold: Optional[float]
-    angle: Optional[float]
-    lost_share: Optional[float]
-    per_bin: int
-    size_classes: int
-    size_edges: list[float]
-    mean_diameter: bool
-    def __init__(self) -> None: ...
-
 class PairTexts:
     @property
     def json(self) -> str: ...
@@ -133,7 +114,5 @@ class PairTexts:
     def points(self) -> str: ...
     @property
     def impacts(self) -> str: ...
-    @property
-    def pictures(self) -> Pictures: ...
 
-def pair(file: str, arguments: PairArguments) -> PairTexts: ...
+def pair(file: str, json: str) -> PairTexts: ...

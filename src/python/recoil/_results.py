@@ -87,7 +87,7 @@ class _WithPictures(_Result):
         return self._pictures.titles()
 
     def svg(self, name: str) -> str:
-        """The picture of that name as SVG, drawn by gnuplot."""
+        """The picture of that name as SVG."""
         if name not in self.pictures:
             raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
         return self._pictures.svg(name)
@@ -244,7 +244,7 @@ class FitResult(_WithPictures):
         return path
 
     def save_page(self, file: PathLike) -> None:
-        """Writes the page of ``recoil report``: one HTML file, pictures (by gnuplot) inside."""
+        """Writes the page of ``recoil report``: one HTML file with its pictures."""
         write_whole(Path(file), self._analysis.page())
 
     def plot(
@@ -491,14 +491,13 @@ class Comparison(_Result):
         return iter(self.facts.fits)
 
 
-class Pairing(_WithPictures):
+class Pairing(_Result):
     """Impacts found in passages: the names of the JSON of ``recoil pair`` are attributes."""
 
     def __init__(self, texts: _recoil.PairTexts) -> None:
         self._points, self._impacts = texts.points, texts.impacts
         self._json = texts.json
         self._text = texts.text
-        self._pictures = texts.pictures
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The points as a frame, one row each, columns as in points.csv (diameters in um,

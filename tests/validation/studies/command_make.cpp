@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "document/markdown.hpp"
 #include "validation/studies/commands.hpp"
+#include "validation/studies/markdown.hpp"
 #include "validation/studies/study_list.hpp"
 #include "validation/studies/study_pages.hpp"
 

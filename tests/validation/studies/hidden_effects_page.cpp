@@ -302,8 +302,7 @@ plot::Plot power_panel(const StudyTally& tally) {
   panel.x.ticks = {{5.0, "5"}, {10.0, "10"}, {20.0, "20"}, {40.0, "40"}};
   panel.y = {"data sets", "%"};
   panel.y.set_range({0.0, 102.0});
-  panel.y.about = 5;
-  panel.key = {plot::KeyPlace::below, 4};
+  panel.key = plot::KeyPlace::below;
   for (std::size_t k = 0; k < curves().size(); ++k) {
     const plot::Marker& marker = plot::marker(k);
     plot::Line line{{}, {}, {marker.colour, 2.0}, marker.mark, 0.9};
@@ -345,7 +344,7 @@ plot::Plot heat_panel(const Confusion& c) {
     }
   }
   panel.colours = plot::ColourScale{
-      "", {0.0, 100.0}, {{0.0, "#ffffff"}, {0.01, "#e8f1f8"}, {1.0, plot::blue}}, "%g %%"};
+      "", {0.0, 100.0}, {{0.0, "#ffffff"}, {0.01, "#e8f1f8"}, {1.0, plot::blue}}, " %"};
   panel.layers = {std::move(cells)};
   return panel;
 }

@@ -165,18 +165,16 @@ Sentence introduction() {
              100.0 * usual.displaced);
 }
 
-Glossary terms() {
-  return {{{"efficiency",
-            "of the first impacts of which both passages are in the file, how many are reported."},
-           {"pure",
-            "of the reported pairs, how many are both passages of one impact of one sphere; "
-            "and first: and not a second impact that was not recognised."},
-           {"purity as estimated",
-            "what recoil pair says itself, without the truth (from foreign passages thrown in and "
-            "from possible exchanges)."},
-           {"crowding",
-            "rate times the mean time between a passage down and its rebound. Above 1, "
-            "flights overlap."}}};
+List terms() {
+  return {
+      {strong("efficiency") + ": of the first impacts of which both passages are in the file, how "
+                              "many are reported.",
+       strong("pure") + ": of the reported pairs, how many are both passages of one impact of one "
+                        "sphere; and first: and not a second impact that was not recognised.",
+       strong("purity as estimated") + ": what recoil pair says itself, without the truth (from "
+                                       "foreign passages thrown in and from possible exchanges).",
+       strong("crowding") + ": rate times the mean time between a passage down and its rebound. "
+                            "Above 1, flights overlap."}};
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "document/markdown.hpp"
 #include "plot/draw.hpp"
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/coverage_picture.hpp"
 #include "validation/studies/hidden_effects_page.hpp"
+#include "validation/studies/markdown.hpp"
 #include "validation/studies/pairing_study.hpp"
 #include "validation/studies/study_stamp.hpp"
 

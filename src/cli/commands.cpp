@@ -1,0 +1,173 @@
+
+#include "cli/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program.hpp"
+#include "core/quoting.hpp"
+
+namespace recoil {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> fits_beside(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string require_there(const std::string& file) {
+  std::error_code failed;
+  if (fs::exists(fs::status(file, failed))) return "";
+  const std::string near = nearest_word(fs::path(file).filename().string(), fits_beside(file));
+  throw InputError({file}, "no such file", "",
+                   near.empty() ? "check the path"
+                                : fmt::format("did you mean '{}'?",
+                                              (fs::path(file).parent_path() / near).string()));
+}
+
+}  // namespace
+
+void add_fit_file(const Command& command, std::string& fit_file) {
+  command.option("FIT", fit_file, "a fit file").required().check(require_there);
+}
+
+Option add_fit_files(const Command& command, std::vector<std::string>& fits,
+                     const std::string& meaning) {
+  return command.option("FIT", fits, meaning).check(require_there);
+}
+
+AnalysisOptions AnalysisFlags::resolved() const {
+  AnalysisOptions options;
+  options.replicates_auto = replicates == "auto";
+  if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
+  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
+  if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
+  options.threads = threads;
+  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
+  return options;
+}
+
+void add_threads(const Command& command, int& threads) {
+  command.option("--threads", threads, "threads to use (default: all cores)").within(1, 4096);
+}
+
+void add_seed(const Command& command, std::int64_t& seed, const std::string& of) {
+  command.option("--seed", seed, fmt::format("seed of {} (default: the fit file's)", of))
+      .within(0, 0x1p63);
+}
+
+void add_analysis_flags(const Command& command, AnalysisFlags& flags) {
+  command
+      .option("--replicates", flags.replicates,
+              "bootstrap replicates; 0: none, auto: as many as it takes (default: the fit file's)")
+      .auto_or(0, 1000000);
+  command
+      .option("--scheme", flags.scheme,
+              "how the bootstrap draws new data sets (default: the fit file's)")
+      .one_of(all_names<Scheme>());
+  add_seed(command, flags.seed, "the random numbers; fixes every digit");
+  add_threads(command, flags.threads);
+  command
+      .option("--solver", flags.solver,
+              "how impacts are integrated; reference: CVODES (default: fast)")
+      .one_of(all_names<Solver>());
+}
+
+void add_json_flag(const Command& command, bool& json) {
+  command.flag("--json", json,
+               "print the result as JSON instead; what else there is to say goes to stderr");
+}
+
+void add_verbose_flag(const Command& command, bool& verbose) {
+  command.flag("--verbose", verbose, "print all details, not the answer alone");
+}
+
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
+  try {
+    write_whole_files(files);
+  } catch (const InputError&) {
+    print_text("{}", result);
+    throw;
+  }
+}
+
+void add_shared_commands(Program& program) {
+  add_fit(program);
+  add_coverage(program);
+  add_diagnose(program);
+}
+
+namespace fs = std::filesystem;
+
+void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags) {
+  flags.command = command;
+  flags.pieces = pieces;
+  command
+      .option("--shard", flags.shard,
+              fmt::format("run only the K-th of N shares of the {}, from 1/N to N/N, and write it "
+                          "as a part into DIR, for recoil merge DIR",
+                          pieces))
+      .takes("K/N")
+      .check([](const std::string& text) -> std::string {
+        if (shard_named(text)) return {};
+        return fmt::format("{} is not K/N with K from 1 to N and N up to {}", text, most_shards);
+      });
+  command.option("--parts", flags.parts, "").hidden();
+}
+
+void ShardFlags::require_share(const std::string& out, std::size_t count) const {
+  if (out.empty()) {
+    throw InputError({}, "--shard needs --out DIR", "the part is written there",
+                     "give all shards the same folder");
+  }
+  if (count == 0) {
+    throw InputError({}, fmt::format("there are no {} to share", pieces), "",
+                     "leave --shard out, or ask for some");
+  }
+  require_writable_folder(out);
+}
+
+Origin ShardFlags::origin(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                          std::uint64_t seed, std::size_t count, const std::string& start) const {
+  std::string inputs = spec.sha256;
+  for (const Dataset& dataset : datasets) inputs += "|" + dataset.sha256;
+  return origin_here(command->words({"--shard", "--out", "--threads"}), sha256_hex(inputs), seed,
+                     count, start);
+}
+
+std::shared_ptr<KeptRows> ShardFlags::rows(const Origin& origin, const fs::path& result) const {
+  if (merging()) return rows_of_parts(parts, origin);
+  if (result.empty()) return std::make_shared<KeptRows>();
+  if (!one_of_several()) {
+    return std::make_shared<KeptRows>(unfinished_beside(result), key_of(origin));
+  }
+  const Shard own = shard_named(shard).value();
+  if (!has_part(result, origin, own)) return rows_of_shard(result, origin, own);
+  print_text("{}: there already\n", part_path(result, origin, own).string());
+  return nullptr;
+}
+
+void ShardFlags::run_share(const Pieces& work, KeptRows& kept, const Origin& origin,
+                           const fs::path& folder) const {
+  const Shard own = shard_named(shard).value();
+  resumable(work, kept, own);
+  write_part(kept, folder, origin, own);
+  print_text("{}: {} of {} {}\n", part_path(folder, origin, own).string(), own.share(work.count),
+             work.count, pieces);
+}
+
+}  // namespace recoil

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "core/files.hpp"
+#include "core/quoting.hpp"
+#include "core/units.hpp"
+#include "data/dataset.hpp"
+#include "data/material_table.hpp"
+#include "document/terminal.hpp"
+#include "report/comparison_report.hpp"
+#include "report/result_json.hpp"
+#include "report/words_dataset.hpp"
+
+namespace recoil {
+
+void add_check(Program& program) {
+  const Command command =
+      program.command("check", "validate a dataset folder and show what it holds");
+  command.footer(
+      "Reads datapackage.json and the points that it names, converts the units and prints what "
+      "was\n"
+      "understood. A mistake is answered with one line:\n"
+      "  file:line:column: problem (why it is one); suggestion\n\n"
+      "  recoil check datasets/dahneke1975-quartz");
+  const auto folder = std::make_shared<std::string>();
+  command.option("DIR", *folder, "the dataset's folder").required();
+  command.runs([folder] { print_text("{}", dataset_text(load_dataset(*folder))); });
+}
+
+void add_compare(Program& program) {
+  const Command command =
+      program.command("compare", "fits of the same data side by side, such as laws of adhesion");
+  command.footer(
+      "Reads what `recoil fit FIT --out DIR` has written. AICc is given where the data state\n"
+      "standard deviations; held out is the error at diameters that the fit has not seen.\n\n"
+      "  recoil compare ring/fit.json jkr/fit.json dmt/fit.json");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command.option("FIT.json", *files, "two or more fit.json of the same datasets")
+      .required()
+      .values(2, 100);
+  const auto json = std::make_shared<bool>(false);
+  add_json_flag(command, *json);
+  command.runs([files, json] {
+    std::vector<ComparedFit> fits;
+    for (const std::string& file : *files) fits.push_back(compared_fit(file, read_text_file(file)));
+    print_text("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
+  });
+}
+
+void add_materials(Program& program) {
+  const Command command =
+      program.command("materials", "list the materials that --particle and --surface know by name");
+  command.footer(
+      "import and init take --particle NAME and --surface NAME; NAME,key=value changes a\n"
+      "constant. The errors go with them into the dataset.\n\n"
+      "  recoil import drops.csv --format heights --into ball --particle steel --surface glass "
+      "...\n"
+      "  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70");
+  command.runs([] {
+    print_text("{:<16}{:>16}{:>20}{:>18}  {}\n", "name", "density [kg/m3]", "E [GPa]", "nu", "");
+    for (const TabledMaterial& one : tabled_materials()) {
+      print_text("{:<16}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}  {}\n",
+                 one.name, one.density, tabled_density_error * one.density,
+                 one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
+                 one.poisson_ratio, one.poisson_ratio_sd, one.what);
+    }
+    print_text(
+        "Source: {}.\nErrors are one standard deviation: a range of Young's modulus counts as "
+        "uniform. Where it gives one value, 2 % of E, 1 % of the density and 0.01 of nu are "
+        "assumed.\n",
+        tabled_materials_source);
+  });
+}
+
+}  // namespace recoil

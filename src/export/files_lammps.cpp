@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "export/files.hpp"
+#include "export/export_job.hpp"
+
+namespace recoil {
+namespace {
+
+// SI to um, us and pg.
+constexpr double um = 1e6;
+constexpr double us = 1e6;
+constexpr double pascal = 1e-3;           // pg / (um us^2)
+constexpr double newton_per_meter = 1e3;  // pg / us^2; J/m2 too
+constexpr double newton = 1e9;            // pg um / us^2
+constexpr double density = 1e-3;          // kg/m3 to pg/um^3
+constexpr double dashpot = 1e6;           // N s m^(-3/2) to pg um^(-1/2) / us
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+constexpr const char* lammps_frame = R"in(@HEADING@#
+# Run:  lmp -in impact.lammps -var V @V@       V: incident velocity [m/s]
+# It ends with "restitution E"; 0 means that the sphere stayed.
+
+variable V index @V@
+variable dt index @DT@            # time step [us]
+variable duration index @DURATION@   # a sphere still in contact then has stayed [us]
+
+units micro                       # um, us, pg
+atom_style sphere
+atom_modify map array
+boundary f f f
+@NEWTON@region box block -@SIDE@ @SIDE@ -@SIDE@ @SIDE@ -@SIDE@ @TOP@ units box
+create_box 1 box
+create_atoms 1 single 0 0 @R@
+set atom 1 diameter @D@ density @RHO@
+velocity all set 0 0 -$V
+comm_modify cutoff @SIDE@
+timestep ${dt}
+
+@FORCE@
+fix move all nve
+variable gone equal "(vz[1]>0)*(z[1]>=@RELEASE@)"
+fix over all halt 100 v_gone > 0.5 error continue message no
+variable e equal "vz[1]/v_V*v_gone+0"
+variable steps equal "ceil(v_duration/v_dt)"
+thermo 0
+run ${steps}
+print "restitution $(v_e:%.9f)"
+)in";
+
+constexpr const char* lammps_ring = R"in(# penetration n [um]; eq. 5 of Li, Dunn & Brach (1999)
+variable R equal @R@
+variable K equal @K@        # [1e3 Pa]
+variable f0 equal @F0@      # [1e-3 N/m]
+variable CH equal @CH@      # [s/m]
+variable CA equal @CA@      # [s/m]
+variable D equal @DASHPOT@  # dashpot of the mechanisms
+variable n atom "(v_R-z+abs(v_R-z))/2"
+variable fz atom "sqrt(v_R*v_n)*(v_K*v_n*(1-v_CH*vz)-2*PI*v_f0*(1+v_CA*@ACTS@))-v_D*sqrt(v_n)*vz"
+fix contact all addforce 0 0 v_fz
+pair_style none
+)in";
+
+constexpr const char* lammps_dmt =
+    R"in(# penetration n [um]; Hertz under the pull 2 pi W R of Derjaguin, Muller & Toporov (1975)
+variable R equal @R@
+variable K equal @K@        # [1e3 Pa]
+variable W equal @W@        # [1e-3 J/m2]
+variable CH equal @CH@      # [s/m]
+variable CA equal @CA@      # [s/m]
+variable n atom "(v_R-z+abs(v_R-z))/2"
+# how much of the time around this step it is in contact: it parts under a force that is not zero
+variable part atom "0.5+(v_R-z)/((vz+(vz<=0))*v_dt)"
+variable touch atom "(vz<=0)*(z<=v_R)+(vz>0)*(abs(v_part)-abs(v_part-1)+1)/2"
+variable fz atom "v_K*sqrt(v_R)*v_n^1.5*(1-v_CH*vz)-v_touch*2*PI*v_W*v_R*(1+v_CA*@ACTS@)"
+fix contact all addforce 0 0 v_fz
+pair_style none
+)in";
+
+constexpr const char* lammps_jkr =
+    R"in(# Johnson, Kendall & Roberts (1971): the contact opens at n = 0 and parts at n = -3 u. With
+# a = a_p c^(2/3), n = u (c^(4/3) - 4 c^(1/3)): c from n in closed form (a quartic). The first impact
+# is exact; a sphere that stayed is not pulled on its way in from below n = 0.
+# W = @W@ J/m2, u = a_p^2 / R, a_p^3 = pi W R^2 / (6 K)
+variable R equal @R@
+variable CH equal @CH@      # [s/m]
+variable CA equal @CA@      # [s/m]
+variable u equal @U@        # [um]
+variable P equal @P@        # K a_p^3 / R [nN]
+variable nu atom "((v_R-z)/v_u-3+abs((v_R-z)/v_u+3))/2"
+compute nu all reduce sum v_nu    # of the one atom: a compute is worked out once per step
+variable s atom "(1+sqrt(abs(1+c_nu^3/27)))^(1/3)"
+compute s all reduce sum v_s
+variable p atom "2/sqrt(c_s^2+c_nu/3+c_nu^2/(9*c_s^2))"
+compute p all reduce sum v_p
+variable c atom "((c_p+sqrt(abs(8/c_p-c_p^2)))/2)^3"
+compute c all reduce sum v_c
+# how much of the time around this step it is in contact: it parts under a force that is not zero
+variable part atom "0.5+(v_R+3*v_u-z)/((vz+(vz<=0))*v_dt)"
+variable touch atom "(vz<=0)*(z<=v_R)+(vz>0)*(abs(v_part)-abs(v_part-1)+1)/2"
+variable fz atom "v_touch*v_P*(c_c^2*(1-v_CH*vz)-6*c_c*(1+v_CA*@ACTS@))"
+fix contact all addforce 0 0 v_fz
+pair_style none
+)in";
+
+// At a wall this version takes E / (2 (1 - nu)) for E*, found by comparing e, where one of a single
+// material would have E / (2 (1 - nu^2)) and one of a rigid wall E / (1 - nu^2) (issue 4141 of
+// lammps): with nu = 0, and no friction to need it, the first two are the same.
+constexpr const char* lammps_stock =
+    R"in(# Hertz with the damping -eta m a n', which is the one number chosen. E = 1.5 K with nu = 0: at a
+# wall LAMMPS takes half of E for E* then, at least up to the version this was tried with.
+pair_style granular
+pair_coeff * * hertz/material @E@ @ETA@ 0 tangential linear_nohistory 0 0 damping viscoelastic
+fix contact all wall/gran granular hertz/material @E@ @ETA@ 0 &
+    tangential linear_nohistory 0 0 damping viscoelastic zplane 0.0 NULL
+)in";
+
+std::string force_text(const ExportJob& job) {
+  const ContactForce& f = job.force;
+  if (job.form == ExportForm::approximation) {
+    return filled(
+        lammps_stock,
+        {{"E", number(1.5 * f.stiffness * pascal)},
+         {"ETA", number(job.stock->value / (f.mass() * std::sqrt(f.radius)) / (us * um))}});
+  }
+  const std::string acts = f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz";
+  const std::string radius = number(f.radius * um);
+  const std::string stiffness = number(f.stiffness * pascal);
+  const std::string c_h = number(f.hertz_damping);
+  const std::string c_a = number(f.adhesion_damping);
+  if (f.adhesion == AdhesionLaw::ring) {
+    return filled(lammps_ring, {{"R", radius},
+                                {"K", stiffness},
+                                {"F0", number(f.adhesion_force * newton_per_meter)},
+                                {"CH", c_h},
+                                {"CA", c_a},
+                                {"DASHPOT", number(f.dashpot * dashpot)},
+                                {"ACTS", acts}});
+  }
+  if (f.adhesion == AdhesionLaw::dmt) {
+    return filled(lammps_dmt, {{"R", radius},
+                               {"K", stiffness},
+                               {"W", number(f.adhesion_energy * newton_per_meter)},
+                               {"CH", c_h},
+                               {"CA", c_a},
+                               {"ACTS", acts}});
+  }
+  const double unit = f.stiffness * std::pow(f.radius * f.jkr_length(), 1.5) / f.radius;
+  return filled(lammps_jkr, {{"R", radius},
+                             {"W", number(f.adhesion_energy)},
+                             {"U", number(f.jkr_length() * um)},
+                             {"P", number(unit * newton)},
+                             {"CH", c_h},
+                             {"CA", c_a},
+                             {"ACTS", acts}});
+}
+
+}  // namespace
+
+std::vector<ExportedFile> lammps_files(const ExportJob& job) {
+  const ContactForce& f = job.force;
+  const bool exact = job.form != ExportForm::approximation;
+  const bool parts_outside = exact && f.adhesion == AdhesionLaw::jkr && f.adhesion_energy > 0.0;
+  const double side = rounded(8.0 * f.radius * um, 2);
+  const std::string text =
+      filled(lammps_frame, {{"HEADING", commented(job.heading, "# ")},
+                            {"V", number(typical_velocity(job.impact))},
+                            {"DT", number(time_step(job.impact) * us)},
+                            {"DURATION", number(longest_run(job.impact) * us)},
+                            {"NEWTON", exact ? "" : "newton off\ncomm_modify vel yes\n"},
+                            {"SIDE", number(side)},
+                            {"TOP", number(4.0 * side)},
+                            {"R", number(f.radius * um)},
+                            {"D", number(2.0 * f.radius * um)},
+                            {"RHO", number(f.density * density)},
+                            {"FORCE", force_text(job)},
+                            {"RELEASE", parts_outside ? "v_R+3*v_u" : number(f.radius * um)}});
+  return {{"impact.lammps", text}};
+}
+
+}  // namespace recoil

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include "export/files.hpp"
+#include "export/export_job.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr const char* liggghts_text = R"in(@HEADING@#
+# Run:  liggghts -in impact.liggghts -var V @V@       V: incident velocity [m/s]
+# It ends with "restitution E".
+
+variable V index @V@
+variable dt index @DT@               # time step [s]
+variable duration index @DURATION@   # [s]
+
+units si
+hard_particles yes               # allows a Young's modulus beyond 1e9 Pa
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+region box block -@SIDE@ @SIDE@ -@SIDE@ @SIDE@ -@SIDE@ @TOP@ units box
+create_box 1 box
+neighbor @SKIN@ bin
+neigh_modify delay 0
+create_atoms 1 single 0 0 @START@
+set atom 1 diameter @D@ density @RHO@
+velocity all set 0 0 -$V
+timestep ${dt}
+
+# E = 1.5 K (1 - nu^2): both bodies have the same material here, and E* = E / (2 (1 - nu^2))
+fix elastic all property/global youngsModulus peratomtype @E@
+fix poisson all property/global poissonsRatio peratomtype 0.25
+fix restitution all property/global coefficientRestitution peratomtypepair 1 @RESTITUTION@
+fix friction all property/global coefficientFriction peratomtypepair 1 0.0
+pair_style gran model hertz tangential no_history
+pair_coeff * *
+fix wall all wall/gran model hertz tangential no_history primitive type 1 zplane 0.0
+fix move all nve/sphere
+
+compute velocity all reduce max vz
+variable e equal "c_velocity/v_V"
+variable steps equal "ceil(v_duration/v_dt)"
+thermo_style custom step c_velocity
+thermo 1000000000
+run ${steps}
+variable shown equal ${e}
+print "restitution ${shown}"
+)in";
+
+std::string plain(double value) { return fmt::format("{}", value); }
+
+}  // namespace
+
+std::vector<ExportedFile> liggghts_files(const ExportJob& job) {
+  const ContactForce& f = job.force;
+  constexpr double poisson = 0.25;
+  const double side = rounded(8.0 * f.radius, 2);
+  return {{"impact.liggghts",
+           filled(liggghts_text, {{"HEADING", commented(job.heading, "# ")},
+                                  {"V", plain(typical_velocity(job.impact))},
+                                  {"DT", plain(time_step(job.impact))},
+                                  {"DURATION", plain(longest_run(job.impact))},
+                                  {"SIDE", plain(side)},
+                                  {"TOP", plain(4.0 * side)},
+                                  {"SKIN", plain(rounded(0.5 * f.radius, 1))},
+                                  {"START", plain(f.radius)},
+                                  {"D", plain(2.0 * f.radius)},
+                                  {"RHO", plain(f.density)},
+                                  {"E", plain(1.5 * f.stiffness * (1.0 - poisson * poisson))},
+                                  {"RESTITUTION", plain(job.stock->value)}})}};
+}
+
+}  // namespace recoil

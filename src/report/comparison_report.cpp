@@ -1,0 +1,331 @@
+#include "report/comparison_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "json/fit_file.hpp"
+#include "report/result_json.hpp"
+
+namespace recoil {
+
+namespace {
+
+constexpr double errors_to_end = 1.96;  // standard errors of a 95 % interval of a normal estimate
+
+const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
+  const auto found =
+      std::find_if(fit.quantities.begin(), fit.quantities.end(),
+                   [&](const ComparedQuantity& quantity) { return quantity.name == name; });
+  return found == fit.quantities.end() ? nullptr : &*found;
+}
+
+std::string title_of(const ComparedFit& fit) {
+  std::string title = fit.adhesion;
+  for (const std::string& mechanism : fit.mechanisms) title += " + " + mechanism;
+  return title;
+}
+
+Table quality_table(const std::vector<ComparedFit>& fits) {
+  std::optional<double> best;
+  for (const ComparedFit& fit : fits) {
+    if (const auto aicc = fit.aicc()) best = std::min(best.value_or(*aicc), *aicc);
+  }
+  Table table;
+  table.columns = {{"fit"},      {"adhesion"}, {"free"}, {"chi2"}, {"AICc above the best"},
+                   {"rms of e"}, {"held out"}};
+  for (const ComparedFit& fit : fits) {
+    const auto aicc = fit.aicc();
+    table.rows.push_back(
+        {Sentence(fit.id), title_of(fit) == fit.id ? Cell() : Cell(Sentence(title_of(fit))),
+         Number{static_cast<double>(fit.free_parameters), fixed(0)}, Number{fit.chi2},
+         aicc && best ? Cell(Number{*aicc - *best, fixed(1)}) : Cell("not defined"),
+         Number{fit.rmse}, fit.held_out_rmse ? Cell(Number{*fit.held_out_rmse}) : Cell()});
+  }
+  return table;
+}
+
+/// A compared quantity by its name: "C_A", "V* at 1.27 um, quartz".
+Sentence quantity_sentence(const std::string& name) {
+  const auto end = name.find(" at ");
+  if (end == std::string::npos) return symbol(name);
+  const std::string where = name.substr(end);
+  const auto um = where.find(" um");
+  Sentence words = symbol(name.substr(0, end));
+  if (um == std::string::npos) return words + where;
+  return words + say("{} {um}{}", where.substr(0, um), where.substr(um + 3));
+}
+
+Cell quantity_cell(const ComparedQuantity* quantity) {
+  if (quantity == nullptr) return {};
+  if (!std::isfinite(quantity->value)) return "none";
+  if (!quantity->free) return say("{} (not fitted)", number(quantity->value));
+  if (!quantity->interval) return Number{quantity->value};
+  const auto& [lower, upper] = *quantity->interval;
+  return say("{} {}", number(quantity->value), NumberRange{lower, upper}.text());
+}
+
+Table quantity_table(const std::vector<ComparedFit>& fits) {
+  Table table;
+  table.columns = {{"quantity"}, {"unit"}};
+  for (const ComparedFit& fit : fits) table.columns.push_back({Sentence(fit.id), "", true});
+  for (const std::string& name : compared_names(fits)) {
+    std::vector<Cell> row = {quantity_sentence(name), Cell()};
+    for (const ComparedFit& fit : fits) {
+      const ComparedQuantity* const quantity = quantity_of(fit, name);
+      if (quantity != nullptr) row[1] = unit(quantity->unit);
+      row.push_back(quantity_cell(quantity));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Sentence dependence_words(const ChoiceDependence& found) {
+  if (found.depends.empty() && found.holds.empty()) {
+    return "No quantity has an interval in more than one of the fits.";
+  }
+  if (found.depends.empty()) return "No quantity depends on the choice: all intervals overlap.";
+  std::vector<Sentence> names;
+  for (const std::string& name : found.depends) names.push_back(quantity_sentence(name));
+  return say("{} of {} quantities depend on the choice, as their intervals do not overlap: {}.",
+             found.depends.size(), found.depends.size() + found.holds.size(), join(names, ", "));
+}
+
+Ends around(double value, double error, bool log_scale) {
+  if (!log_scale) return {value - errors_to_end * error, value + errors_to_end * error};
+  const double factor = std::exp(errors_to_end * error / value);
+  return {value / factor, value * factor};
+}
+
+ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets) {
+  const FitResult& f = *law.fitted;
+  ComparedFit fit;
+  fit.id = to_string(law.law);
+  fit.adhesion = fit.id;
+  fit.mechanisms = law.spec.mechanisms;
+  for (const Dataset& dataset : datasets) {
+    fit.data.push_back(dataset.id + " " + dataset.sha256);
+    fit.points += static_cast<int>(dataset.points.size());
+  }
+  fit.chi2 = f.chi2;
+  fit.sd_stated = f.data.sd_stated && f.dof > 0;
+  fit.rmse = f.rmse;
+  fit.held_out_rmse = law.held_out_rmse;
+  for (std::size_t s = 0; s < f.theta.size(); ++s) {
+    const ParameterSlot& slot = f.model.slots[s];
+    if (slot.is_constant() && !slot.moves()) continue;  // every law holds it at what is stated
+    ComparedQuantity quantity{slot.label(), std::string(slot.parameter->unit),
+                              acting_value(f.model, f.theta, s), slot.free, std::nullopt};
+    const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
+    if (slot.free && !f.at_bound[s] && error > 0.0) {
+      const Ends ends = around(f.theta[s], error, slot.log_scale);
+      quantity.interval = {std::max(ends[0], slot.lower), std::min(ends[1], slot.upper)};
+    }
+    fit.free_parameters += slot.free ? 1 : 0;
+    fit.quantities.push_back(std::move(quantity));
+  }
+  for (const LawCapture& capture : law.captures) {
+    ComparedQuantity quantity;
+    quantity.name =
+        capture_name(capture.diameter / units::um, datasets[capture.dataset].id, datasets.size());
+    quantity.unit = "m/s";
+    quantity.value = capture.value.value_or(NAN);
+    if (capture.value && capture.std_error) {
+      quantity.interval = around(*capture.value, *capture.std_error, true);
+    }
+    fit.quantities.push_back(std::move(quantity));
+  }
+  return fit;
+}
+
+/// `laws.json`.
+struct LawsFile {
+  std::vector<ComparedFit> laws;
+  RECOIL_FIELDS(laws)
+};
+
+}  // namespace
+
+std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits) {
+  std::vector<std::string> names;
+  for (const ComparedFit& fit : fits) {
+    for (const ComparedQuantity& quantity : fit.quantities) {
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
+        names.push_back(quantity.name);
+      }
+    }
+  }
+  return names;
+}
+
+void require_same_data(const std::vector<ComparedFit>& fits) {
+  for (const ComparedFit& fit : fits) {
+    if (fit.data == fits.front().data) continue;
+    throw InputError({},
+                     fmt::format("{} and {} are fits of different data", fits.front().id, fit.id),
+                     "only fits of the same points can be compared", "fit the same datasets again");
+  }
+}
+
+std::optional<double> ComparedFit::aicc() const {
+  const int k = free_parameters;
+  if (!sd_stated || points - k - 1 <= 0) return std::nullopt;
+  return chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (points - k - 1.0);
+}
+
+ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
+  const FitFile read = read_fit_file(file, fit_json, "recoil compare");
+  ComparedFit fit;
+  fit.id = read.fit.id;
+  fit.adhesion = to_string(read.options.adhesion);
+  fit.mechanisms = read.options.mechanisms;
+  for (const DatasetEntry& dataset : read.datasets) {
+    fit.data.push_back(dataset.id + " " + dataset.sha256);
+    fit.points += static_cast<int>(dataset.points);
+  }
+  fit.chi2 = read.goodness.chi2.value.value_or(NAN);
+  fit.sd_stated = read.goodness.p_value.value.has_value();
+  fit.rmse = read.goodness.rmse.value.value_or(NAN);
+  fit.held_out_rmse = read.full.held_out_rmse.value;
+  for (const auto& [name, parameter] : read.parameters) {
+    fit.quantities.push_back(
+        {.name = name,
+         .unit = parameter.unit,
+         .value = parameter.value.value.value_or(NAN),
+         .free = parameter.free,
+         .interval = parameter.free ? recommended_interval(parameter) : std::nullopt});
+    fit.free_parameters += parameter.free ? 1 : 0;
+  }
+  for (const FitFile::CaptureVelocity& capture : read.derived.capture_velocity) {
+    fit.quantities.push_back({.name = capture_name(capture.diameter_um.value_or(NAN),
+                                                   capture.dataset, read.datasets.size()),
+                              .unit = "m/s",
+                              .value = capture.value.value.value_or(NAN),
+                              .free = true,
+                              .interval = capture.interval});
+  }
+  return fit;
+}
+
+std::string capture_name(double diameter_um, const std::string& dataset, std::size_t datasets) {
+  const std::string name = diameter_um < 1000.0
+                               ? fmt::format("V* at {:.4g} um", diameter_um)
+                               : fmt::format("V* at {:.4g} mm", diameter_um / 1000.0);
+  return datasets > 1 ? name + ", " + dataset : name;
+}
+
+std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
+                                       const std::vector<Dataset>& datasets) {
+  std::vector<ComparedFit> fits;
+  for (const LawFit& law : laws) {
+    if (law.fitted && law.fitted->usable) fits.push_back(compared_law(law, datasets));
+  }
+  return fits;
+}
+
+std::string laws_json(const std::vector<ComparedFit>& laws) {
+  Json json = as_json(LawsFile{laws});
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    json["laws"][k]["aicc"] = as_json(laws[k].aicc());
+  }
+  return json_text(json);
+}
+
+ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits) {
+  ChoiceDependence found;
+  for (const std::string& name : compared_names(fits)) {
+    std::size_t with_interval = 0;
+    double highest_lower = -INFINITY;
+    double lowest_upper = INFINITY;
+    for (const ComparedFit& fit : fits) {
+      const ComparedQuantity* const quantity = quantity_of(fit, name);
+      if (quantity == nullptr || !quantity->interval) continue;
+      ++with_interval;
+      highest_lower = std::max(highest_lower, (*quantity->interval)[0]);
+      lowest_upper = std::min(lowest_upper, (*quantity->interval)[1]);
+    }
+    if (with_interval < 2) continue;
+    (highest_lower > lowest_upper ? found.depends : found.holds).push_back(name);
+  }
+  return found;
+}
+
+std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits) {
+  require_same_data(fits);
+  return {{"quality", "Quality of the fits", {}, {quality_table(fits)}},
+          {"quantities",
+           "Parameters and capture velocities",
+           {},
+           {Paragraph{dependence_words(choice_dependence(fits))}, quantity_table(fits)}}};
+}
+
+std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
+  if (laws.size() < 2) return {};
+  return {quality_table(laws), Paragraph{dependence_words(choice_dependence(laws))}};
+}
+
+namespace {
+
+Json fit_of_comparison(const ComparedFit& fit, std::optional<double> best) {
+  const auto aicc = fit.aicc();
+  return {{"id", fit.id},
+          {"adhesion", fit.adhesion},
+          {"mechanisms", fit.mechanisms},
+          {"free_parameters", fit.free_parameters},
+          {"points", fit.points},
+          {"chi2", number_or_null(fit.chi2)},
+          {"aicc", number_or_null(aicc.value_or(NAN))},
+          {"aicc_above_best", number_or_null(aicc && best ? *aicc - *best : NAN)},
+          {"rmse", number_or_null(fit.rmse)},
+          {"held_out_rmse", number_or_null(fit.held_out_rmse.value_or(NAN))}};
+}
+
+Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
+  const auto found = std::find_if(fit.quantities.begin(), fit.quantities.end(),
+                                  [&](const ComparedQuantity& q) { return q.name == name; });
+  if (found == fit.quantities.end()) return nullptr;
+  entry["unit"] = found->unit;
+  return {{"value", number_or_null(found->value)},
+          {"free", found->free},
+          {"interval", as_json(found->interval)}};
+}
+
+}  // namespace
+
+std::string comparison_json(const std::vector<ComparedFit>& fits) {
+  require_same_data(fits);
+  std::optional<double> best;
+  for (const ComparedFit& fit : fits) {
+    if (const auto aicc = fit.aicc()) best = std::min(best.value_or(*aicc), *aicc);
+  }
+  Json out;
+  out["format_version"] = format_version;
+  out["recoil_version"] = version();
+  out["data"] = fits.front().data;
+  out["fits"] = Json::array();
+  for (const ComparedFit& fit : fits) out["fits"].push_back(fit_of_comparison(fit, best));
+  const ChoiceDependence dependence = choice_dependence(fits);
+  out["quantities"] = Json::array();
+  for (const std::string& name : compared_names(fits)) {
+    Json entry = {{"name", name}, {"unit", ""}};
+    Json said = Json::array();
+    for (const ComparedFit& fit : fits) said.push_back(said_of(fit, name, entry));
+    entry["fits"] = std::move(said);
+    const auto is_in = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    entry["depends_on_choice"] = is_in(dependence.depends) || is_in(dependence.holds)
+                                     ? Json(is_in(dependence.depends))
+                                     : Json(nullptr);
+    out["quantities"].push_back(std::move(entry));
+  }
+  return json_text(out);
+}
+
+}  // namespace recoil

@@ -1,0 +1,313 @@
+#include "report/diagnosis_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "report/format.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_diagnosis.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_pairs = 8;
+constexpr std::size_t most_misfits_on_top = 2;  // figures in the answer
+constexpr std::size_t sentences_in_short = 3;   // of the answer, on the page of the fit
+
+/// One parameter under one of the models.
+struct UnderModel {
+  Cell estimate, interval;
+  std::string remark;
+};
+
+UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
+                       const std::string& label) {
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (fitted.model.slots[j].label() != label) continue;
+    if (!fitted.model.slots[j].free) {
+      return {Number{acting_value(fitted.model, fitted.theta, j)},
+              {},
+              followed_in(fitted.model, j) ? "follows the materials" : "fixed"};
+    }
+    const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
+    UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
+    if (fitted.at_bound[j]) found.remark = "at its bound";
+    if (j < intervals.size())
+      found.interval = interval_cell(recommended_interval(intervals[j]), padded(3));
+    return found;
+  }
+  return {};
+}
+
+Cell said_of_both(const std::string& base, const std::string& extended) {
+  if (base == extended) return Sentence(base);
+  if (base.empty()) return Sentence(extended + " in the extended model");
+  if (extended.empty()) return Sentence(base + " in the base model");
+  return Sentence(fmt::format("{}, then {}", base, extended));
+}
+
+Table structure_table(const Diagnosis& d) {
+  Table table;
+  table.caption =
+      say("Tests of the residuals; {p} from {} simulated data sets", d.structure.simulated);
+  table.columns = {{"structure"}, {say("{p}")}};
+  for (const StructureTest& test : d.structure.tests) {
+    table.rows.push_back({Sentence(words_of(test.question)), Number{test.p_value, probability()}});
+  }
+  table.rows.push_back({"all tests together", Number{d.structure.p_value, probability()}});
+  return table;
+}
+
+Table misfit_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  table.caption = say("Mean misfit, {e} - {e}_model: positive where the model is too low");
+  table.columns = {{say("{d}"), sizes.name}, {"dataset", "", true}, {say("{V}"), "m/s"}, {"points"},
+                   {say("in {e}")},          {"energy", "J"},       {"standard errors"}};
+  for (const MisfitCell& cell : d.where) {
+    table.rows.push_back(
+        {Sentence(size_text(cell.diameter, sizes)),
+         d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, cell.dataset))) : Cell(),
+         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
+         Number{static_cast<double>(cell.points), fixed(0)},
+         Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
+         Number{cell.standardised, signed_fixed(1)}});
+  }
+  return table;
+}
+
+/// Single mechanisms and the best pairs, the best first.
+std::vector<CandidateResult> tried(const Diagnosis& d) {
+  std::vector<CandidateResult> all = d.candidates;
+  const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
+  all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
+  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+    return one.delta_aicc < other.delta_aicc;
+  });
+  return all;
+}
+
+/// The mechanisms that gain more than their parameters cost or answer the question, each added to
+/// the model and refitted.
+Table candidates_table(const Diagnosis& d) {
+  Table table;
+  table.compact = true;
+  table.caption = say(
+      "Mechanisms added to the model, one or two at a time. Gain: of the corrected criterion "
+      "(AICc). {p}: share of simulated data sets in which the best of all candidates gains as much "
+      "by chance. Left: p-value of the remaining structure");
+  table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
+                   {"held out"},  {"left"}, {"verdict", "", true}};
+  std::size_t others = 0;
+  for (const CandidateResult& c : tried(d)) {
+    if (c.delta_aicc >= 0.0 && !c.explains()) {
+      ++others;
+      continue;
+    }
+    table.rows.push_back(
+        {Sentence(words_of(c.candidate.name())), Number{-c.delta_aicc, fixed(1)},
+         cell_if(number_if(c.p_value, probability())),
+         c.gain ? Cell(Number{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
+         Number{c.remaining_p, probability()},
+         Sentence(c.explains() ? "explains it" : short_set_aside_words(c))});
+  }
+  if (others > 0) {
+    table.rows.push_back({say("{} others", others), {}, {}, {}, {}, "gain too little"});
+  }
+  return table;
+}
+
+/// What the causes in the answer mean.
+List causes_list(const Diagnosis& d) {
+  List list;
+  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
+    for (const std::string& id : *ids) {
+      const Mechanism* const mechanism = find_mechanism(id);
+      if (mechanism == nullptr) continue;
+      list.entries.push_back(strong(words_of(id)) + ": " + mechanism->info.title);
+    }
+  }
+  return list;
+}
+
+std::string remark_of(const HeldOutGain::PerFold& fold) {
+  std::vector<std::string> remarks;
+  if (!fold.chosen) remarks.emplace_back("the other points choose the base model");
+  if (!fold.counted) remarks.emplace_back("shown, not counted");
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+Table held_out_table(const Diagnosis& d) {
+  Table table;
+  if (!d.gain) return table;
+  table.caption = "Both models fitted without a block of points, and compared with it";
+  table.columns = {{"held out"},
+                   {"points"},
+                   {say("rms of {e}, base")},
+                   {say("rms of {e}, extended")},
+                   {"ln likelihood"},
+                   {"remark", "", true}};
+  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
+    table.rows.push_back(
+        {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
+         Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
+         Number{fold.rmse_base, significant(3)}, Number{fold.rmse_extended, significant(3)},
+         Number{fold.log_score, signed_fixed(1)}, Sentence(remark_of(fold))});
+  }
+  return table;
+}
+
+Table both_models_table(const Diagnosis& d) {
+  Table table;
+  if (!d.extended_fit) return table;
+  const std::string level = percent(d.spec.uncertainty.level) + " interval";
+  table.compact = true;
+  table.caption = "Parameters under both models";
+  if (d.spec.law_error > 0.0) {
+    table.caption += fmt::format(", without the law error of {} that the diagnosis allows",
+                                 percent(d.spec.law_error));
+  }
+  table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
+  const ImpactModel& model = d.extended_fit->model;
+  for (std::size_t s = 0; s < model.slots.size(); ++s) {
+    const ParameterSlot& slot = model.slots[s];
+    if (slot.is_constant()) continue;
+    const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
+    const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
+    Sentence name = parameter_words(model, s, d.datasets);
+    if (slot.parameter->unit != "1") name += " [" + unit(slot.parameter->unit) + "]";
+    table.rows.push_back({std::move(name), base.estimate, base.interval, extended.estimate,
+                          extended.interval, said_of_both(base.remark, extended.remark)});
+  }
+  return table;
+}
+
+Table capture_change_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  table.caption = "Predicted capture velocity";
+  table.columns = {
+      {say("{d}"), sizes.name}, {"dataset", "", true}, {"base", "m/s"}, {"extended", "m/s"}};
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? Cell(Number{*value, significant(4)}) : Cell("none");
+  };
+  for (const CaptureChange& change : d.capture) {
+    table.rows.push_back(
+        {Sentence(size_text(change.diameter, sizes)),
+         d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, change.dataset))) : Cell(),
+         cell(change.base), cell(change.extended)});
+  }
+  return table;
+}
+
+Table next_experiment_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  if (d.experiments.empty()) return table;
+  table.compact = true;
+  table.caption =
+      "Experiments with the least effort: impacts until the expected odds between two causes are "
+      "99 to 1";
+  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
+                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
+                   {say("difference in {e}")}};
+  for (const NextExperiment& next : d.experiments) {
+    table.rows.push_back(
+        {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
+         Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},
+         Sentence(words_of(next.one)), Sentence(words_of(next.other)),
+         Number{next.difference, signed_fixed(3)}});
+  }
+  return table;
+}
+
+Section answer_section(const Diagnosis& d) {
+  Section answer{"answer", d.spec.id, "diagnosis"};
+  const RestitutionSummary summary = summarise_restitution(d.datasets);
+  answer.blocks = {Paragraph{strong(headline(d) + "."), true},
+                   Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
+                   Paragraph{join(restitution_sentences(summary, d.datasets), " ")}};
+  append(answer.blocks, provenance_banners(d.datasets));
+  return answer;
+}
+
+}  // namespace
+
+std::vector<Section> diagnosis_sections(const Diagnosis& d) {
+  const std::vector<Figure> before_after = before_after_figures(d);
+  const std::vector<Figure> misfit = misfit_figures(d);
+  const bool one = d.datasets.size() == 1;
+  std::vector<Figure> answer = one ? before_after : std::vector<Figure>();
+  std::vector<Figure> where = misfit;
+  if (one || misfit.size() <= most_misfits_on_top) {
+    answer.insert(answer.end(), misfit.begin(), misfit.end());
+    where.clear();
+  }
+  std::vector<std::string> notes = answer_notes(d);
+  for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
+  return {answer_section(d),
+          {"picture", "", {}, {Figures{std::move(answer)}}},
+          detail_section("misfit", "Where the model misses",
+                         {Figures{std::move(where)}, structure_table(d), misfit_table(d)}),
+          detail_section("causes", "Every cause tried", {candidates_table(d), causes_list(d)}),
+          detail_section("gain", "The extended model",
+                         {one ? Figures{} : Figures{before_after}, both_models_table(d),
+                          capture_change_table(d), held_out_table(d)}),
+          detail_section("next", "What to measure next", {next_experiment_table(d)}),
+          detail_section("notes", "Notes and warnings",
+                         {list_of_sentences({notes.begin(), notes.end()})})};
+}
+
+Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
+  std::vector<std::string> sentences = answer_sentences(d);
+  if (sentences.size() > sentences_in_short) sentences.resize(sentences_in_short);
+  Section section{"diagnosis", "Diagnosis"};
+  section.blocks = {Paragraph{strong(headline(d) + ".") +
+                              Sentence(fmt::format(" {}", fmt::join(sentences, " ")))}};
+  if (!address.empty())
+    section.blocks.emplace_back(Paragraph{link("The whole diagnosis", address)});
+  return section;
+}
+
+Document diagnosis_document(const Diagnosis& d) {
+  Document page;
+  page.title = "Diagnosis of " + d.spec.id;
+  page.heading = page.title;
+  page.name = d.spec.id;
+  page.foot = "recoil " + version();
+  page.sections = diagnosis_sections(d);
+  page.sections.front().title = {};  // the heading of the page says it
+  page.sections.front().remark = {};
+  return page;
+}
+
+std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t columns) {
+  std::string answer, details;
+  for (const Section& section : diagnosis_sections(d)) {
+    (section.importance == Importance::answer ? answer : details) +=
+        terminal_text(section, columns);
+  }
+  if (!d.spec.file.empty()) {
+    answer += terminal_text(
+        Section{"next",
+                "",
+                {},
+                {Paragraph{say(
+                    "Next: {} (a page, and the extended model as a fit file), {} (every "
+                    "cause tried).",
+                    code(fmt::format("recoil diagnose {} --out DIR", d.spec.file.generic_string())),
+                    code("--verbose"))}}},
+        columns);
+  }
+  return least == Importance::answer ? answer : answer + details;
+}
+
+std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }
+
+}  // namespace recoil

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/units.hpp"
+#include "diagnosis/diagnosis_result.hpp"
+#include "estimate/observation.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/format.hpp"
+#include "report/words_diagnosis.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int curve_points = 80;
+constexpr double largest_z = 6.0;  // of the colour scale
+
+std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
+  return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
+}
+
+/// How far the base model is off at every point of a dataset.
+struct Misses {
+  std::vector<double> velocities, diameters;  ///< [m/s], [size_unit]
+  std::vector<double> misses;                 ///< e - e_model
+  std::vector<double> in_sd;                  ///< the same in standard deviations
+};
+
+std::string size_text(const Diagnosis& d, double diameter) {
+  const SizeUnit unit = size_unit(d.datasets);
+  return size_text(diameter, unit) + " " + unit.sign;
+}
+
+Misses misses_of(const Diagnosis& d, std::size_t dataset) {
+  Misses all;
+  const double unit = size_unit(d.datasets).metres;
+  for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
+    const Observation& point = d.base.data.points[i];
+    if (point.dataset != dataset || point.counts_only()) continue;
+    const double miss = (point.censored ? 0.0 : point.restitution) -
+                        expected_restitution(point, d.base.prediction_squared[i]);
+    all.velocities.push_back(point.velocity);
+    all.diameters.push_back(point.diameter / unit);
+    all.misses.push_back(miss);
+    all.in_sd.push_back(point.weights.sd > 0.0 ? miss / point.weights.sd : 0.0);
+  }
+  return all;
+}
+
+/// A logarithmic axis with a margin, wide enough to be read where the values hardly differ.
+plot::Range log_range(const std::vector<double>& values, double margin) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double factor = std::pow(std::max(*high / *low, 1.5), margin);
+  return {*low / factor, *high * factor};
+}
+
+plot::Axis velocity_axis_of(const Misses& misses, double margin) {
+  plot::Axis axis{"V", "m/s"};
+  axis.logarithmic = true;
+  axis.set_range(log_range(misses.velocities, margin));
+  return axis;
+}
+
+/// Ticks at the diameters themselves, where they are few and far enough apart to be read.
+std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range range) {
+  constexpr std::size_t most = 8;
+  const double nearest = std::pow(range.upper / range.lower, 0.07);
+  std::sort(diameters.begin(), diameters.end());
+  std::vector<plot::Tick> ticks;
+  for (const double d : diameters) {
+    if (!ticks.empty() && d < ticks.back().at * nearest) continue;
+    ticks.push_back({d, fmt::format("{:.6g}", d)});
+  }
+  if (ticks.size() > most) ticks.clear();
+  return ticks;
+}
+
+/// The axis of the diameters; of one diameter alone, that of the misses themselves.
+plot::Axis vertical_axis(const Diagnosis& d, const Misses& misses, bool one_size) {
+  plot::Axis axis;
+  if (one_size) {
+    axis.label = "e - e_model";
+    std::vector<double> shown = misses.misses;
+    shown.push_back(0.0);
+    axis.set_range(plot::range_of(shown, 0.12));
+    return axis;
+  }
+  axis = {"d", size_unit(d.datasets).sign};
+  axis.logarithmic = true;
+  const plot::Range range = log_range(misses.diameters, 0.25);
+  axis.set_range(range);
+  axis.ticks = size_ticks(misses.diameters, range);
+  return axis;
+}
+
+Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
+  const Misses misses = misses_of(d, dataset);
+  const bool one_size = std::all_of(misses.diameters.begin(), misses.diameters.end(),
+                                    [&](double size) { return size == misses.diameters.front(); });
+  plot::Plot shown;
+  shown.x = velocity_axis_of(misses, 0.06);
+  shown.y = vertical_axis(d, misses, one_size);
+  shown.colours =
+      plot::ColourScale{"(e - e_model) / sd",
+                        {-largest_z, largest_z},
+                        {{-1.0, plot::blue}, {0.0, "#EEEEEE"}, {1.0, plot::vermillion}}};
+  if (one_size) {
+    shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
+    shown.layers.push_back(plot::Words{
+        fmt::format("d = {:.4g} {}", misses.diameters.front(), size_unit(d.datasets).sign),
+        plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
+  }
+  shown.layers.push_back(
+      plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});
+  plot::Picture picture;
+  picture.name = fmt::format("misfit-{}", dataset);
+  picture.title =
+      "Where the base model misses, over velocity and diameter" + in_dataset(d, dataset);
+  picture.height = 300;
+  picture.plots = {std::move(shown)};
+  return figure_of(
+      std::move(picture),
+      "Every disc is a point, larger for more standard deviations. Orange: e lies above the model; "
+      "blue: below. Patches of one colour are structure, a mixture is noise.");
+}
+
+/// The base curve and the extended one of one diameter.
+struct TwoCurves {
+  std::vector<double> velocity, base, extended;
+};
+
+TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, std::size_t series,
+                    plot::Range velocities) {
+  std::vector<PointConditions> points;
+  TwoCurves curves;
+  for (int k = 0; k < curve_points; ++k) {
+    const double part = static_cast<double>(k) / (curve_points - 1);
+    const double velocity = velocities.lower * std::pow(velocities.upper / velocities.lower, part);
+    points.push_back({dataset, diameter, velocity, series});
+    curves.velocity.push_back(velocity);
+  }
+  const auto restitutions = [&](const FitResult& fit) {
+    std::vector<double> values;
+    for (const Prediction& one : predict(fit.model, fit.theta, points, false)) {
+      values.push_back(one.usable() ? one.restitution() : NAN);
+    }
+    return values;
+  };
+  curves.base = restitutions(d.base);
+  curves.extended = restitutions(*d.extended_fit);
+  return curves;
+}
+
+/// The axis of e begins at nothing, unless all points lie high above.
+plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
+  double top = 0.0;
+  double bottom = 1.0;
+  for (const Observation& point : d.base.data.points) {
+    if (point.dataset != dataset) continue;
+    top = std::max(top, point.restitution + 2.0 * point.weights.sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.weights.sd);
+  }
+  const bool high = bottom > 0.7;
+  const double room = 0.3 * (top - bottom);
+  plot::Axis axis{"e"};
+  if (high) {
+    axis.set_range({bottom - room, top + room});
+  } else {
+    axis.set_range({0.0, 1.03 * std::max(top, 1.0)});
+  }
+  return axis;
+}
+
+Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
+  struct Measured {
+    std::vector<double> velocity, restitution, sd;
+    std::size_t series = 0;
+  };
+  std::map<double, Measured> sizes;
+  for (const Observation& point : d.base.data.points) {
+    if (point.dataset != dataset || point.counts_only()) continue;
+    Measured& size = sizes[point.diameter];
+    size.velocity.push_back(point.velocity);
+    size.restitution.push_back(point.censored ? 0.0 : point.restitution);
+    size.sd.push_back(point.weights.sd);
+    size.series = point.series;
+  }
+  plot::Plot shown;
+  shown.x = velocity_axis_of(misses_of(d, dataset), 0.04);
+  shown.y = axis_around_points(d, dataset);
+  shown.key = plot::KeyPlace::above;
+  std::size_t k = 0;
+  for (const auto& [diameter, size] : sizes) {
+    const plot::Marker& marker = plot::marker(k++);
+    const TwoCurves curves =
+        curves_of(d, dataset, diameter, size.series, {shown.x.from, shown.x.to});
+    shown.layers.push_back(
+        plot::Line{curves.velocity, curves.base, {marker.colour, 1.2, plot::Dash::dashes}});
+    shown.layers.push_back(plot::Line{curves.velocity, curves.extended, {marker.colour, 2.0}});
+    plot::Points points{size.velocity, size.restitution};
+    points.with_sd(size.sd);
+    points.marker = marker;
+    points.size = 0.7;
+    points.width = 1.0;
+    if (sizes.size() <= plot::markers.size()) points.name = size_text(d, diameter);
+    shown.layers.push_back(std::move(points));
+  }
+  plot::Picture picture;
+  picture.name = fmt::format("before-after-{}", dataset);
+  picture.title =
+      "Restitution against velocity under the base and the extended model" + in_dataset(d, dataset);
+  picture.width = 560;
+  picture.height = 380;
+  picture.plots = {std::move(shown)};
+  return figure_of(std::move(picture),
+                   fmt::format("Dashed: the model. Solid: extended by {}. Error bars are one "
+                               "standard deviation.",
+                               words_of(d.extended->candidate.name())));
+}
+
+}  // namespace
+
+std::vector<Figure> misfit_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(misfit_figure(d, k));
+  return figures;
+}
+
+std::vector<Figure> before_after_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  if (!d.extended_fit) return figures;
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(before_after_figure(d, k));
+  return figures;
+}
+
+}  // namespace recoil

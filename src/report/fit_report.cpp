@@ -1,0 +1,364 @@
+#include "report/fit_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "report/comparison_report.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/format.hpp"
+#include "report/prediction_report.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_fit.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int picture_width = 560;               // [px]
+constexpr int picture_height = 380;              // [px]
+constexpr std::ptrdiff_t most_lines = 25;        // on the terminal, without --verbose
+constexpr std::size_t most_rows_of_answer = 12;  // of a table there
+constexpr std::size_t fewest_rows_of_answer = 3;
+
+/// "ammonium fluorescein on molybdenum, 60 points"
+Sentence subtitle_of(const Analysis& a) {
+  std::vector<std::string> surfaces;
+  for (const Dataset& dataset : a.datasets) surfaces.push_back(dataset.system.surface.name);
+  return say("{} on {}, {} points", a.datasets.front().system.particle.name,
+             fmt::format("{}", fmt::join(surfaces, ", ")), a.fitted.data.points.size());
+}
+
+/// The capture velocity at the diameter for which the parameters of a dataset are quoted.
+const CaptureEstimate* reference_capture(const Analysis& a, std::size_t dataset) {
+  const double reference = a.fitted.model.contacts[dataset].reference_diameter;
+  const CaptureEstimate* nearest = nullptr;
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    if (capture.dataset != dataset || !capture.found || without_adhesion(a, dataset)) continue;
+    const auto distance = [&](const CaptureEstimate& one) {
+      return std::abs(std::log(one.diameter / reference));
+    };
+    if (nearest == nullptr || distance(capture) < distance(*nearest)) nearest = &capture;
+  }
+  return nearest;
+}
+
+/// "Spheres of 4.9 um stick below 0.958 m/s [0.912, 0.984]."
+Sentence capture_words(const Analysis& a) {
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    const Sentence who = diameter_sentence(capture.diameter);
+    if (capture.above && capture.below) {
+      return say(
+          "All impacts up to {:.3g} m/s were captured, none from {:.3g} m/s on: the capture "
+          "velocity "
+          "of {} lies between them.",
+          *capture.above, *capture.below, who);
+    }
+    if (capture.above) {
+      return say("All impacts were captured: the capture velocity of {} lies above {:.3g} m/s.",
+                 who, *capture.above);
+    }
+    if (capture.below) {
+      return say("No impact was captured: the capture velocity of {} lies below {:.3g} m/s.", who,
+                 *capture.below);
+    }
+  }
+  std::vector<Sentence> parts;
+  double last = 0.0;  // the diameter that was named last [m]
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const CaptureEstimate* const capture = reference_capture(a, k);
+    if (capture == nullptr) continue;
+    Number velocity{capture->value, padded(3)};
+    if (capture->interval.available()) {
+      velocity.band = {*capture->interval.lower, *capture->interval.upper};
+    }
+    Sentence part = velocity.words() + " m/s";
+    if (a.datasets.size() > 1) part += " on " + short_name(a.datasets, k);
+    parts.push_back(capture->diameter == last
+                        ? part
+                        : say("of {} {}below {}", diameter_sentence(capture->diameter),
+                              parts.empty() ? "stick " : "", part));
+    last = capture->diameter;
+  }
+  if (parts.empty()) return {};
+  return say("Spheres {}.", join(parts, ", "));
+}
+
+/// Does the model fit? A diagnosis allows for errors of its laws, a fit alone does not.
+Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
+  if (diagnosis == nullptr || !a.fitted.data.sd_stated) return quality_words(a.fitted);
+  if (diagnosis->verdict != Verdict::adequate) {
+    return a.fitted.noise_verdict == NoiseVerdict::exceeded ? quality_words(a.fitted)
+                                                            : "The model does not fit.";
+  }
+  if (a.fitted.noise_verdict == NoiseVerdict::exceeded && diagnosis->spec.law_error > 0.0) {
+    return say(
+        "The model fits if its laws may be wrong by {}; as exact laws they do not fit: the "
+        "residuals are {} times the stated noise, and all intervals are widened by this factor.",
+        percent(diagnosis->spec.law_error), number(a.fitted.noise_scale, 3));
+  }
+  return tests_the_curve(*diagnosis) ? "The model fits." : "These points cannot test the model.";
+}
+
+/// A parameter of the model that its upper bound holds back.
+Sentence bound_words(const FitResult& f) {
+  std::vector<Sentence> names;
+  for (const std::size_t j : held_back_dampings(f)) {
+    names.push_back(symbol(f.model.slots[j].label()));
+  }
+  if (names.empty()) return {};
+  return say("{} rests on its upper bound: widen the bounds before reading anything into the fit.",
+             join(names, ", "));
+}
+
+/// The point without which the others fit, with the verdict on them.
+Sentence odd_point_words(const Analysis& a) {
+  if (!a.uncertainty.odd_point) return {};
+  const OddPoint& odd = *a.uncertainty.odd_point;
+  const Observation& point = a.fitted.data.points[odd.index];
+  std::vector<Sentence> values;
+  for (std::size_t j = 0; j < odd.without.theta.size(); ++j) {
+    const ParameterSlot& slot = odd.without.model.slots[j];
+    if (!slot.free) continue;
+    values.push_back(
+        say("{} = {}", symbol(slot.label()),
+            Number{odd.without.theta[j], significant(3), odd.without.std_error[j]}.words()));
+  }
+  std::string verdict = plain_text(quality_words(odd.without));
+  verdict.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(verdict.front())));
+  verdict.pop_back();  // the full stop
+  return say(
+      "Line {}{} ({e} = {:.3g} at {:.3g} m/s) lies {:.1f} standard deviations from what the "
+      "others predict. Without it {}; {}.",
+      point.line, a.datasets.size() > 1 ? " of " + a.datasets[point.dataset].id : std::string(),
+      point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
+}
+
+/// e(V) with all sizes: the only panel, or all of them in one picture.
+Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
+  if (panels.size() == 1) return {panels};
+  Sentence caption = say("Points and fit with its {} band.", percent(a.uncertainty.options.level));
+  if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
+  return {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
+}
+
+/// All warnings, the gravest first, without the one that the verdict says.
+std::vector<Sentence> warnings_of(const Analysis& a) {
+  std::vector<Sentence> warnings = all_warnings(a);
+  if (a.fitted.usable && a.fitted.noise_verdict == NoiseVerdict::exceeded) {
+    std::erase(warnings, noise_warning(a.fitted));
+  }
+  for (Sentence& words : all_contradictions(a)) warnings.push_back(std::move(words));
+  return warnings;
+}
+
+/// The gravest warning, and how many more there are.
+Blocks gravest_warning(const std::vector<Sentence>& warnings) {
+  if (warnings.empty()) return {};
+  Sentence text = as_sentence(warnings.front());
+  if (warnings.size() > 1) {
+    text += say(" ({} more under Warnings and limits.)", warnings.size() - 1);
+  }
+  return {Banner{"warning", text}};
+}
+
+/// Every diameter by itself, and the residuals of every dataset.
+Section sizes_section(const Analysis& a, std::vector<Figure> panels,
+                      const RestitutionSummary& summary) {
+  if (panels.size() == 1) panels.clear();  // the answer shows it
+  for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
+  return detail_section("sizes", "Every size, and the residuals",
+                        {Figures{std::move(panels)}, restitution_table(summary, a.datasets)});
+}
+
+/// Why intervals are missing.
+std::vector<Sentence> interval_sentences(const Analysis& a) {
+  std::vector<Sentence> sentences;
+  for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
+    const ParameterSlot& slot = a.fitted.model.slots[s];
+    if (!slot.free || slot.is_constant()) continue;
+    const Interval& interval = recommended_interval(a.uncertainty.intervals[s]);
+    if (interval.available()) continue;
+    sentences.push_back(say("{} has no interval: {}",
+                            parameter_words(a.fitted.model, s, a.datasets),
+                            missing_words(interval)));
+  }
+  return sentences;
+}
+
+Section certainty_section(const Analysis& a) {
+  std::vector<Sentence> sentences = {identifiability_words(a.fitted, a.uncertainty)};
+  for (Sentence& words : interval_sentences(a)) sentences.push_back(std::move(words));
+  if (a.uncertainty.posterior) {
+    sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
+  }
+  for (Sentence& words : budget_sentences(a)) sentences.push_back(std::move(words));
+  sentences.push_back(moved_words(a));
+  return detail_section("certainty", "How certain the numbers are",
+                        {list_of_sentences(sentences), constants_table(a), posterior_table(a)});
+}
+
+Section comparison_section(const Analysis& a) {
+  Blocks blocks;
+  std::vector<Sentence> sentences;
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    const std::string where =
+        a.datasets.size() > 1 ? " on " + short_name(a.datasets, comparison.dataset) : "";
+    if (!where.empty()) {
+      blocks.emplace_back(two_point_table(a, comparison));
+      std::get<Table>(blocks.back()).caption = short_name(a.datasets, comparison.dataset);
+    }
+    sentences.push_back(say("two points{}, {}: {}", where,
+                            words_of(to_string(comparison.result.status)),
+                            two_point_words(a.fitted, comparison.dataset, comparison.result)));
+    sentences.emplace_back(held_out_words(comparison));
+  }
+  blocks.emplace_back(list_of_sentences(sentences));
+  append(blocks, law_blocks(compared_laws(a.laws, a.datasets)));
+  blocks.emplace_back(Figures{capture_figures(a)});
+  append(blocks, mixture_blocks(a));
+  return detail_section("comparison", "Two points, other laws, other models", std::move(blocks));
+}
+
+/// @param said how many of `warnings` the answer shows
+Section warnings_section(const Analysis& a, const std::vector<Sentence>& warnings,
+                         std::size_t said) {
+  std::vector<Sentence> sentences(warnings.begin() + static_cast<std::ptrdiff_t>(said),
+                                  warnings.end());
+  for (const std::string& words : passed_limits(a.validity, a.datasets)) {
+    sentences.push_back("limit of the model: " + words);
+  }
+  return detail_section("warnings", "Warnings and limits", {list_of_sentences(sentences)});
+}
+
+Section inputs_section(const Analysis& a) {
+  Blocks blocks = {statistics_table(a), materials_table(a), contact_table(a)};
+  List sources;
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const Dataset& dataset = a.datasets[k];
+    for (const std::string& source : dataset.sources) {
+      const auto same = std::find(sources.entries.begin(), sources.entries.end(), Sentence(source));
+      if (same == sources.entries.end()) sources.entries.emplace_back(source);
+    }
+    if (averages_over_sizes(a.fitted.model, k)) {
+      sources.entries.push_back(as_sentence(Sentence(mixed_sizes_words(*dataset.mixed_sizes))));
+    }
+  }
+  blocks.emplace_back(std::move(sources));
+  return detail_section("inputs", "Data, model and method", std::move(blocks));
+}
+
+/// The commands that answer the next questions.
+Section next_section(const Analysis& a) {
+  if (a.spec.file.empty()) return {};
+  const std::string file = a.spec.file.generic_string();
+  return {"next",
+          "",
+          {},
+          {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
+                         code("recoil diagnose " + file), code("recoil report " + file),
+                         code("--verbose"))}}};
+}
+
+/// `section` with at most `rows` rows in its tables, and how many more there are.
+Section shortened(Section section, std::size_t rows) {
+  for (Block& block : section.blocks) {
+    auto* const table = std::get_if<Table>(&block.content());
+    if (table == nullptr || table->rows.size() <= rows) continue;
+    const std::size_t more = table->rows.size() - rows + 1;
+    table->rows.resize(rows - 1);
+    table->rows.push_back({say("{} more: --verbose", more)});
+  }
+  return section;
+}
+
+}  // namespace
+
+std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
+                                  const std::string& diagnosis_page) {
+  Section answer{"answer", a.spec.id, subtitle_of(a)};
+  const std::vector<Sentence> warnings = warnings_of(a);
+  if (!a.fitted.usable) {
+    answer.blocks = {Paragraph{"The fit failed: " + a.fitted.failure}};
+    return {answer, warnings_section(a, warnings, 0), inputs_section(a)};
+  }
+  std::vector<Figure> panels = restitution_figures(a);
+  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_words(a, diagnosis),
+                                 capture_words(a), loss_words(a), odd_point_words(a)};
+  std::erase(leads, Sentence());
+  const RestitutionSummary summary = summarise_restitution(a.datasets);
+  answer.blocks = {Paragraph{join(leads, " "), true},
+                   Paragraph{join(restitution_sentences(summary, a.datasets), " ")}};
+  append(answer.blocks, provenance_banners(a.datasets));
+  std::vector<Section> sections = {std::move(answer)};
+  sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
+  sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
+  sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
+  if (a.datasets.size() == 1 && !a.uncertainty.two_point.empty()) {
+    sections.push_back({"calibrations",
+                        "Two points and all points",
+                        {},
+                        {two_point_table(a, a.uncertainty.two_point.front())}});
+  }
+  if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
+  sections.push_back({"warning", "", {}, gravest_warning(warnings)});
+  sections.push_back(sizes_section(a, std::move(panels), summary));
+  sections.push_back(certainty_section(a));
+  sections.push_back(comparison_section(a));
+  sections.push_back(warnings_section(a, warnings, std::min<std::size_t>(1, warnings.size())));
+  sections.push_back(inputs_section(a));
+  return sections;
+}
+
+Document fit_document(const Analysis& a, const Diagnosis* diagnosis,
+                      const std::string& diagnosis_page) {
+  if (!a.fitted.usable) {
+    throw ComputationError(
+        fmt::format("there is no page without a usable fit: {}", a.fitted.failure));
+  }
+  Document page;
+  page.sections = fit_sections(a, diagnosis, diagnosis_page);
+  const std::string& title = a.datasets.front().title;
+  page.title = a.datasets.size() == 1 && !title.empty() ? title : a.spec.id;
+  page.heading = page.title;
+  page.subtitle = page.sections.front().remark;
+  page.foot = "recoil " + version();
+  page.name = a.spec.id;
+  page.sections.front().title = {};  // the heading of the page says it
+  page.sections.front().remark = {};
+  return page;
+}
+
+std::string fit_text(const Analysis& a, Importance least, std::size_t columns) {
+  std::vector<Section> answer, details;
+  for (Section& section : fit_sections(a)) {
+    const bool detail = section.importance == Importance::detail;
+    if (!detail && !answer.empty()) section.title = {};  // the tables say it
+    (detail ? details : answer).push_back(std::move(section));
+  }
+  answer.push_back(next_section(a));
+  if (least == Importance::detail) {
+    return terminal_text(answer, least, columns) + terminal_text(details, least, columns);
+  }
+  std::string text;
+  for (std::size_t rows = most_rows_of_answer; rows >= fewest_rows_of_answer; --rows) {
+    std::vector<Section> shorter;
+    for (const Section& section : answer) shorter.push_back(shortened(section, rows));
+    text = terminal_text(shorter, least, columns);
+    if (std::count(text.begin(), text.end(), '\n') <= most_lines) break;
+  }
+  return text;
+}
+
+std::string fit_html(const Analysis& a, const Diagnosis* diagnosis,
+                     const std::string& diagnosis_page) {
+  return html_page(fit_document(a, diagnosis, diagnosis_page));
+}
+
+}  // namespace recoil

@@ -1,0 +1,374 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/units.hpp"
+#include "estimate/model.hpp"
+#include "report/fit_report.hpp"
+#include "report/format.hpp"
+#include "report/panels.hpp"
+#include "report/prediction_report.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_residuals = 500;
+constexpr std::string_view dark_green = "#00684c";
+
+plot::Points captured_layer(plot::Points points) {
+  points.marker.mark = plot::Mark::open_triangle_down;
+  points.size = 0.9;
+  points.name = "captured";
+  return points;
+}
+
+/// The capture velocity as a line with its interval as a strip; `capture_words` labels it.
+void add_capture(const CaptureEstimate& capture, const Axes& axes, plot::Plot& shown) {
+  const Interval& interval = capture.interval;
+  const auto inside = [&](double v) {
+    return std::clamp(v, axes.velocity.lower, axes.velocity.upper);
+  };
+  if (interval.available()) {
+    shown.layers.push_back(plot::Region{inside(*interval.lower), inside(*interval.upper)});
+  }
+  if (capture.value > axes.velocity.lower && capture.value < axes.velocity.upper) {
+    shown.layers.push_back(
+        plot::Rule{plot::Direction::vertical, capture.value, {plot::green, 1.4}});
+  }
+}
+
+std::string capture_words(const CaptureEstimate& capture, const Axes& axes) {
+  std::string words = fmt::format("capture below V* = {} m/s", digits(capture.value, 3));
+  if (capture.interval.available()) words += " " + interval_text(capture.interval, 3);
+  if (capture.value <= axes.velocity.lower) words = "← " + words;
+  return words;
+}
+
+std::string points_name(const Dataset& dataset, bool sd_stated) {
+  const std::string name = to_string(dataset.provenance);
+  return sd_stated ? name + " ± 1 sd" : name;
+}
+
+void add_curve(const Analysis& analysis, const RestitutionCurve& curve, plot::Plot& shown) {
+  const CurveColumns columns = curve_columns(curve);
+  if (!columns.lower.empty()) {
+    plot::Band band{columns.velocity, columns.lower, columns.upper};
+    band.name = percent(analysis.uncertainty.options.level) + " band";
+    shown.layers.push_back(std::move(band));
+  }
+  plot::Line fit{columns.velocity, columns.restitution, {plot::blue, 2.0}};
+  fit.name = "fit to all points";
+  shown.layers.push_back(std::move(fit));
+  if (!columns.two_point.empty()) {
+    plot::Line two{
+        columns.velocity, columns.two_point, {plot::vermillion, 2.0, plot::Dash::long_dashes}};
+    two.name = "two points";
+    shown.layers.push_back(std::move(two));
+  }
+}
+
+plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, const Axes& axes) {
+  const Dataset& dataset = analysis.datasets[panel.dataset];
+  plot::Plot shown;
+  shown.heading = "d = " + diameter_label(panel.diameter);
+  if (analysis.datasets.size() > 1) shown.heading += ", " + dataset.id;
+  shown.x = velocity_axis(axes.velocity);
+  shown.y = restitution_axis(axes.top);
+  shown.key = plot::KeyPlace::below;
+  if (panel.capture != nullptr) {
+    shown.remark = capture_words(*panel.capture, axes);
+    shown.remark_colour = dark_green;
+    add_capture(*panel.capture, axes, shown);
+  }
+  if (panel.curve != nullptr) add_curve(analysis, *panel.curve, shown);
+
+  const PointColumns columns = point_columns(analysis, panel.points);
+  const auto points =
+      rebound_layer(analysis, columns, points_name(dataset, analysis.fitted.data.sd_stated));
+  if (points) shown.layers.push_back(*points);
+  if (!columns.captured.empty()) {
+    shown.layers.push_back(
+        captured_layer({columns.captured, std::vector<double>(columns.captured.size(), 0.0)}));
+  }
+  plot::Picture picture;
+  picture.title = fmt::format("Restitution against incident velocity, {}", shown.heading);
+  picture.height = 375;
+  picture.plots = {std::move(shown)};
+  return picture;
+}
+
+Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
+  Sentence text = say("{} on {}: {} point{}.", diameter_sentence(panel.diameter),
+                      short_name(analysis.datasets, panel.dataset), panel.points.size(),
+                      panel.points.size() == 1 ? "" : "s");
+  const std::size_t drawn_every = panel.points.size() / most_panel_points + 1;
+  if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
+  if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
+    text += fmt::format(" {}", mean_curve_words);
+  }
+  return text;
+}
+
+// ---- residuals ---------------------------------------------------------------------------------
+
+struct ResidualRow {
+  double velocity;
+  double diameter;
+  double residual;  ///< [sd]
+  bool censored;
+};
+
+std::vector<ResidualRow> residual_rows(const Analysis& analysis, std::size_t dataset) {
+  std::vector<ResidualRow> rows;
+  const double unit = residual_unit(analysis);
+  const auto& points = analysis.fitted.data.points;
+  for (std::size_t i = 0; i < points.size() && i < analysis.fitted.residuals.size(); ++i) {
+    if (points[i].dataset != dataset) continue;
+    rows.push_back({points[i].velocity, points[i].diameter, analysis.fitted.residuals[i] / unit,
+                    points[i].censored});
+  }
+  return rows;
+}
+
+/// Residuals of one dataset against velocity, told apart by diameter while there are few.
+plot::Plot residual_plot(const std::vector<ResidualRow>& rows) {
+  std::map<double, plot::Points> by_diameter;
+  plot::Points captured;
+  std::vector<double> velocities;
+  double largest = 3.2;
+  const std::size_t stride = rows.size() / most_residuals + 1;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (std::isfinite(rows[i].residual)) {
+      largest = std::max(largest, 1.1 * std::abs(rows[i].residual));
+    }
+    if (i % stride != 0) continue;
+    velocities.push_back(rows[i].velocity);
+    plot::Points& points = rows[i].censored ? captured : by_diameter[rows[i].diameter];
+    points.x.push_back(rows[i].velocity);
+    points.y.push_back(rows[i].residual);
+  }
+  plot::Plot shown;
+  shown.x = velocity_axis(plot::log_range_of(velocities, 0.05));
+  shown.y = {"residual", "sd"};
+  shown.y.set_range({-largest, largest});
+  shown.key = plot::KeyPlace::above;
+  for (const double at : {-2.0, 2.0}) {
+    shown.layers.push_back(
+        plot::Rule{plot::Direction::horizontal, at, {plot::grey, 1.0, plot::Dash::dashes}});
+  }
+  shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.2}});
+  const bool told_apart = by_diameter.size() <= plot::markers.size();
+  std::size_t index = 0;
+  for (auto& [diameter, points] : by_diameter) {
+    points.marker = plot::marker(told_apart ? index++ : 0);
+    points.size = 0.65;
+    if (told_apart) points.name = diameter_label(diameter);
+    shown.layers.push_back(std::move(points));
+  }
+  if (!captured.x.empty()) shown.layers.push_back(captured_layer(std::move(captured)));
+  return shown;
+}
+
+Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRow>& rows,
+                          std::size_t dataset) {
+  const auto outside = std::count_if(rows.begin(), rows.end(), [](const ResidualRow& row) {
+    return std::abs(row.residual) > 2.0;
+  });
+  return say(
+      "{}: data minus fit in {}. {} of {} are outside the dashed lines, {:.0f} expected.",
+      short_name(analysis.datasets, dataset),
+      analysis.fitted.data.sd_stated ? "standard deviations" : "units of the estimated noise",
+      outside, rows.size(), 0.0455 * static_cast<double>(rows.size()));
+}
+
+// ---- capture models ----------------------------------------------------------------------------
+
+/// One look per model, told apart by colour and dashes.
+constexpr std::array<plot::Stroke, 5> strokes = {{{plot::blue, 2.0},
+                                                  {plot::ink, 2.0, plot::Dash::long_dashes},
+                                                  {plot::vermillion, 2.0, plot::Dash::dots},
+                                                  {plot::green, 2.0, plot::Dash::dash_dot},
+                                                  {plot::purple, 2.0, plot::Dash::dashes}}};
+
+/// All velocities shown, with room at both ends.
+plot::Range capture_range(const CaptureComparison& comparison) {
+  std::vector<double> all;
+  for (const CaptureCurve& curve : comparison.curves) {
+    for (const auto* values : {&curve.velocity, &curve.lower, &curve.upper}) {
+      all.insert(all.end(), values->begin(), values->end());
+    }
+  }
+  for (const PublishedCapture& one : comparison.published) all.push_back(one.velocity);
+  const plot::Range range = plot::log_range_of(all, 0.0);
+  return {range.lower / 1.3, range.upper * 1.3};
+}
+
+void add_published(const CaptureComparison& comparison, bool measured, plot::Plot& shown) {
+  plot::Points points;
+  for (const PublishedCapture& one : comparison.published) {
+    if (one.measured != measured) continue;
+    points.x.push_back(one.diameter / units::um);
+    points.y.push_back(one.velocity);
+  }
+  if (points.x.empty()) return;
+  points.marker.mark = measured ? plot::Mark::dot : plot::Mark::circle;
+  points.size = 1.1;
+  points.width = 1.6;
+  points.name = measured ? "published, measured" : "published, of a model";
+  shown.layers.push_back(std::move(points));
+}
+
+plot::Plot capture_plot(const CaptureComparison& comparison, const Dataset& dataset) {
+  std::vector<double> diameters = comparison.diameter;
+  for (double& diameter : diameters) diameter /= units::um;
+  plot::Plot shown;
+  shown.heading =
+      fmt::format("{} on {}", dataset.system.particle.name, dataset.system.surface.name);
+  shown.x = {"diameter d", "µm"};
+  shown.x.logarithmic = true;
+  shown.x.set_range({diameters.front(), diameters.back()});
+  shown.y = {"capture velocity V*", "m/s"};
+  shown.y.logarithmic = true;
+  shown.y.set_range(capture_range(comparison));
+  shown.key = plot::KeyPlace::below;
+  for (std::size_t i = 0; i < comparison.curves.size(); ++i) {
+    const CaptureCurve& curve = comparison.curves[i];
+    const plot::Stroke& stroke = strokes[i % strokes.size()];
+    if (!curve.lower.empty()) {
+      shown.layers.push_back(
+          plot::Band{diameters, curve.lower, curve.upper, {std::string(stroke.colour), 0.2}});
+    }
+    plot::Line line{diameters, curve.velocity, stroke};
+    line.name = words_of(curve.model);
+    shown.layers.push_back(std::move(line));
+  }
+  add_published(comparison, true, shown);
+  add_published(comparison, false, shown);
+  return shown;
+}
+
+/// The inputs of the curves, and which curves are missing.
+Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dataset) {
+  std::vector<Sentence> words = {
+      say("Older models, from {W_A} = {:.3g} {J/m2} and {K} = {:.4g} GPa; those of Dahneke and "
+          "Wall also take {e} = {:.3g} from the fit",
+          comparison.adhesion_energy, comparison.stiffness / units::GPa, comparison.restitution)};
+  if (comparison.yield) {
+    words.push_back(say("yield pressure {:.3g} MPa ({})", comparison.yield->pressure / 1e6,
+                        comparison.yield->source));
+  } else {
+    words.push_back(say("no published yield pressure of {}", dataset.system.particle.name));
+  }
+  if (comparison.unanswered > 0) {
+    words.push_back(say("no capture velocity at {} of {} diameters", comparison.unanswered,
+                        comparison.unanswered + comparison.diameter.size()));
+  }
+  for (const PublishedCapture& one : comparison.published) {
+    words.push_back(say("published, {} at {}: {} m/s, {}", one.what,
+                        diameter_sentence(one.diameter), number(one.velocity, 3), one.source));
+  }
+  if (comparison.published.empty()) {
+    words.emplace_back("no published capture velocity for this pair");
+  }
+  return join(words, "; ") + ".";
+}
+
+}  // namespace
+
+plot::Picture restitution_overview(const Analysis& analysis, int width, int height) {
+  const std::vector<Panel> panels = panels_of(analysis);
+  plot::Range velocity{INFINITY, 0.0};
+  double top = 1.05;
+  for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
+    const Axes axes = axes_of(analysis, panels, k);
+    if (!std::isfinite(axes.velocity.lower)) continue;
+    velocity.lower = std::min(velocity.lower, axes.velocity.lower);
+    velocity.upper = std::max(velocity.upper, axes.velocity.upper);
+    top = std::max(top, axes.top);
+  }
+  plot::Plot shown;
+  shown.x = velocity_axis(velocity);
+  shown.y = restitution_axis(top);
+  shown.key = plot::KeyPlace::above;
+  const bool by_dataset = analysis.datasets.size() > 1;
+  plot::Points captured;
+  std::vector<bool> named(analysis.datasets.size(), false);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Panel& panel = panels[i];
+    const plot::Marker& marker = plot::marker(by_dataset ? panel.dataset : i);
+    const std::string name =
+        by_dataset ? short_name(analysis.datasets, panel.dataset) : diameter_label(panel.diameter);
+    const bool show = by_dataset ? !named[panel.dataset] : panels.size() <= plot::markers.size();
+    named[panel.dataset] = true;
+    if (panel.curve != nullptr) {
+      const CurveColumns curve = curve_columns(*panel.curve);
+      if (!by_dataset && !curve.lower.empty()) {
+        shown.layers.push_back(plot::Band{
+            curve.velocity, curve.lower, curve.upper, {std::string(marker.colour), 0.3}});
+      }
+      shown.layers.push_back(plot::Line{curve.velocity, curve.restitution, {marker.colour, 1.6}});
+    }
+    const PointColumns columns = point_columns(analysis, panel.points);
+    plot::Points points{columns.velocity, columns.restitution};
+    points.marker = marker;
+    if (show) points.name = name;
+    shown.layers.push_back(std::move(points));
+    captured.x.insert(captured.x.end(), columns.captured.begin(), columns.captured.end());
+  }
+  captured.y.assign(captured.x.size(), 0.0);
+  if (!captured.x.empty()) shown.layers.push_back(captured_layer(std::move(captured)));
+  plot::Picture picture;
+  picture.name = "overview";
+  picture.title = fmt::format("Restitution against incident velocity, {}", analysis.spec.id);
+  picture.width = width;
+  picture.height = height;
+  picture.plots = {std::move(shown)};
+  return picture;
+}
+
+std::vector<Figure> restitution_figures(const Analysis& analysis) {
+  const std::vector<Panel> panels = panels_of(analysis);
+  std::vector<Figure> figures;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    plot::Picture picture =
+        restitution_picture(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
+    picture.name = fmt::format("restitution-{}", i + 1);
+    figures.push_back(figure_of(std::move(picture), restitution_caption(analysis, panels[i])));
+  }
+  return figures;
+}
+
+std::vector<Figure> residual_figures(const Analysis& analysis) {
+  std::vector<Figure> figures;
+  for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
+    const std::vector<ResidualRow> rows = residual_rows(analysis, k);
+    if (rows.empty()) continue;
+    plot::Picture picture;
+    picture.name = fmt::format("residuals-{}", k + 1);
+    picture.title = fmt::format("Weighted residuals against velocity, {}", analysis.datasets[k].id);
+    picture.height = 320;
+    picture.plots = {residual_plot(rows)};
+    figures.push_back(figure_of(std::move(picture), residual_caption(analysis, rows, k)));
+  }
+  return figures;
+}
+
+std::vector<Figure> capture_figures(const Analysis& analysis) {
+  std::vector<Figure> figures;
+  for (const CaptureComparison& comparison : analysis.captures) {
+    if (comparison.diameter.size() < 2 || comparison.curves.empty()) continue;
+    const Dataset& dataset = analysis.datasets[comparison.dataset];
+    plot::Picture picture;
+    picture.name = fmt::format("capture-models-{}", comparison.dataset + 1);
+    picture.title = fmt::format("Capture velocity against diameter, {}", dataset.id);
+    picture.height = 430;
+    picture.plots = {capture_plot(comparison, dataset)};
+    figures.push_back(figure_of(std::move(picture), capture_caption(comparison, dataset)));
+  }
+  return figures;
+}
+
+}  // namespace recoil

@@ -1,0 +1,338 @@
+#include "report/pairing_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/json.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "document/terminal.hpp"
+#include "experiment/flight.hpp"
+#include "report/result_json.hpp"
+
+namespace recoil {
+
+namespace {
+
+constexpr double degree = M_PI / 180.0;
+constexpr std::size_t most_rows = 40;
+constexpr double doubtful_purity = 0.9;  // of the pairs, below which the points are not believed
+
+double as_number(std::size_t n) { return static_cast<double>(n); }
+double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
+const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
+
+Section rows_section(const PassageTable& table) {
+  std::vector<std::string> units;
+  for (const FieldUnit& field : table.units) {
+    units.push_back(fmt::format("{} [{}]", field.field, field.unit));
+  }
+  Section section{"file", "Passages"};
+  section.blocks = {
+      Paragraph{say("{}: {} passages in {} rows; {}", table.file, table.passages.size(), table.rows,
+                    fmt::format("{}", fmt::join(units, ", ")))}};
+  List left_out;
+  if (table.damaged > 0) {
+    std::vector<std::string> first;
+    for (const BadRow& row : table.first_damaged) {
+      first.push_back(fmt::format("{}:{}: {}", table.file, row.line, row.problem));
+    }
+    left_out.entries.push_back(say("{} damaged row{} left out ({})", table.damaged,
+                                   plural(table.damaged),
+                                   fmt::format("{}", fmt::join(first, "; "))));
+  }
+  if (table.duplicated > 0) {
+    std::vector<std::string> first;
+    for (const int at : table.first_duplicated) {
+      first.push_back(fmt::format("{}:{}", table.file, at));
+    }
+    left_out.entries.push_back(say("{} repeated row{} left out ({})", table.duplicated,
+                                   plural(table.duplicated),
+                                   fmt::format("{}", fmt::join(first, ", "))));
+  }
+  if (table.unsorted > 0) {
+    left_out.entries.push_back(say("{} row{} out of order, sorted by time (first: {}:{})",
+                                   table.unsorted, plural(table.unsorted), table.file,
+                                   table.first_unsorted));
+  }
+  if (!table.ignored.empty()) {
+    left_out.entries.push_back(
+        say("columns not used: {}", fmt::format("{}", fmt::join(table.ignored, ", "))));
+  }
+  section.blocks.emplace_back(std::move(left_out));
+  return section;
+}
+
+Sentence plane_words(const PairingResult& pairs) {
+  if (!pairs.refined) {
+    return say("{:g} mm above the surface, {}", pairs.height / units::mm,
+               pairs.options.refine ? "as estimated: too few pairs to refine it" : "as stated");
+  }
+  return say(
+      "{:.5g} {+/-} {:.2g} mm above the surface, refined from {:g} mm (standard error from the "
+      "scatter; an error of the velocity scale adds to it); one pair's flight time scatters by "
+      "{:.2g} % of h, its two diameters by {:.2g} %",
+      pairs.height / units::mm, pairs.height_sd / units::mm, pairs.options.height / units::mm,
+      100.0 * pairs.height_spread, 100.0 * pairs.diameter_spread);
+}
+
+Sentence later_words(const PairingResult& pairs) {
+  if (!pairs.returns_usable) {
+    return "rebounds that come down again cannot be told from chance: second impacts, if there are "
+           "any, are counted as first ones";
+  }
+  const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
+                                   [](const Impact& impact) { return impact.number > 1; });
+  return say(
+      "{} of them are second or further impacts, {}; {} rebounds were seen coming down again, "
+      "{:.0f} of these by chance",
+      later, pairs.options.keep_later ? "used as well" : "kept out", pairs.returns,
+      pairs.expected_returns);
+}
+
+struct Selected {
+  std::size_t number = 0;
+  double restitution = 0.0;
+  double diameter = 0.0;
+};
+
+template <class Rule>
+Selected selected(const PairingResult& pairs, const Rule& rule) {
+  Selected result;
+  for (const Impact& impact : pairs.impacts) {
+    if (!rule(impact)) continue;
+    ++result.number;
+    result.restitution += impact.restitution;
+    result.diameter += impact.diameter;
+  }
+  if (result.number == 0) return result;
+  result.restitution /= as_number(result.number);
+  result.diameter /= as_number(result.number);
+  return result;
+}
+
+/// What the threshold took away, and what that does to the means.
+Sentence threshold_words(const PassageTable& table, const PairingResult& pairs) {
+  if (!pairs.options.threshold) return {};
+  const double threshold = *pairs.options.threshold;
+  const auto below = [&](const Impact& impact) {
+    return table.passages[impact.down].velocity < threshold;
+  };
+  const auto is_first = [](const Impact& impact) { return impact.number == 1; };
+  const Selected first = selected(pairs, is_first);
+  const Selected later = selected(pairs, [&](const Impact& i) { return !is_first(i); });
+  const Selected first_out =
+      selected(pairs, [&](const Impact& i) { return is_first(i) && below(i); });
+  const Selected later_out =
+      selected(pairs, [&](const Impact& i) { return !is_first(i) && below(i); });
+  const Selected kept = selected(pairs, [&](const Impact& i) { return is_first(i) && !below(i); });
+  Sentence words =
+      say("{:g} m/s at the plane: removes {} of {} later impacts ({:.1f} %) and {} of {} first "
+          "ones ({:.1f} %). ",
+          threshold, later_out.number, later.number,
+          percent_of(as_number(later_out.number), as_number(later.number)), first_out.number,
+          first.number, percent_of(as_number(first_out.number), as_number(first.number)));
+  if (kept.number > 0) {
+    words += say(
+        "Selection: among first impacts the mean {e} goes from {:.4f} to {:.4f}, the mean diameter "
+        "from {:.4g} to {:.4g} {um}. ",
+        first.restitution, kept.restitution, first.diameter / units::um, kept.diameter / units::um);
+  }
+  return words + say("It acts on the incident velocity only, so above it nothing is selected by "
+                     "{e}; but slow first impacts, where adhesion shows, are left out.");
+}
+
+Sentence angle_words(const PassageTable& table, const PairingResult& pairs) {
+  if (!pairs.options.angle) return {};
+  if (!table.has_tangential) return "not applied: the file has no tangential_velocity";
+  const Selected outside =
+      selected(pairs, [&](const Impact& impact) { return impact.angle > *pairs.options.angle; });
+  return say("{} rebounds leave at more than {:g} degrees from the normal and are not used",
+             outside.number, *pairs.options.angle / degree);
+}
+
+Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
+  std::vector<std::pair<Sentence, Cell>> entries = {
+      {"passages", say("{} towards the surface, {} away from it", pairs.down, pairs.up)},
+      {"measuring plane", plane_words(pairs)},
+      {"impacts",
+       say("{} pairs; {:.2f} % are true ones (estimate: {} of {} foreign passages found a partner, "
+           "and neighbours may have been exchanged)",
+           pairs.impacts.size(), 100.0 * pairs.purity(),
+           std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
+      {"later", later_words(pairs)}};
+  if (const Sentence words = threshold_words(table, pairs); !words.empty()) {
+    entries.emplace_back("threshold", words);
+  }
+  if (const Sentence words = angle_words(table, pairs); !words.empty()) {
+    entries.emplace_back("angle", words);
+  }
+  Section section{"impacts", "Impacts", {}, {items(entries)}};
+  if (pairs.purity() < doubtful_purity) {
+    section.blocks.push_back(Banner{
+        "warning", say("Only {:.1f} % of the pairs are true ones: the points are those of passages "
+                       "that have nothing to do with each other. The height of the measuring plane "
+                       "(--height) and the times are the first things to check.",
+                       100.0 * pairs.purity())});
+  }
+  return section;
+}
+
+/// What became of the passages towards the surface that have no rebound.
+Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
+  const std::string seen = pairs.options.lost_share
+                               ? std::string("as stated")
+                               : fmt::format(
+                                     "{} of {} rebounds were not seen on their way down, and the "
+                                     "way up is taken to be missed as often",
+                                     pairs.orphans, pairs.up);
+  Table table;
+  table.columns = {{"taken for"}, {"passages"}, {"because", "", true}};
+  table.rows = {
+      {"lost", Number{averages.lost, fixed(0)},
+       say("{:.1f} % of rebounds go unseen ({}); {} of them are proved by a later return",
+           100.0 * averages.lost_share, seen, averages.came_back)},
+      {"too slow", Number{averages.too_slow, fixed(0)},
+       say("below {:.4f} m/s at the surface a rebound does not climb to the plane; from the "
+           "scatter of {e} of those that do",
+           flight::slowest_return(pairs.height))},
+      {"captured", Number{static_cast<double>(averages.captured), fixed(0)}, {}},
+      {"not assigned", Number{averages.unresolved, fixed(0)},
+       "too few in their bins to be told from chance"}};
+  return table;
+}
+
+Section unpaired_section(const PairingResult& pairs, const Averages& averages) {
+  Section section{"unpaired", "Without a rebound"};
+  section.blocks = {
+      Paragraph{say("{} used passages towards the surface have no rebound:", averages.unpaired)},
+      unpaired_table(pairs, averages),
+      Paragraph{say("Of the fastest quarter, {:.1f} % of {} have no rebound: if nothing is "
+                    "captured there, this is the share that is lost (--lost-share).",
+                    100.0 * averages.fast_unpaired, averages.fast_impacts)},
+      Paragraph{"A single passage does not say which: captured, too slow and lost look alike, and "
+                "only their numbers can be estimated. Where few rebounds are left in a bin, "
+                "captured includes too slow."}};
+  return section;
+}
+
+Section points_section(const Averages& averages) {
+  Section section{"points", "Points"};
+  section.blocks = {
+      Paragraph{say("{}; a bin spans at least {:.2g} % of its velocity, 6 standard deviations of "
+                    "the velocities' error",
+                    averages.points.size(), 100.0 * averages.narrowest)}};
+  List left_out;
+  if (averages.outside_sizes > 0) {
+    left_out.entries.push_back(
+        say("{} impacts lie outside the size classes", averages.outside_sizes));
+  }
+  if (averages.in_small_bins > 0) {
+    left_out.entries.push_back(
+        say("{} impacts are isolated in velocity, fewer than 5 together, and are left out",
+            averages.in_small_bins));
+  }
+  append(section.blocks, {std::move(left_out), averages_table(averages)});
+  if (averages.points.size() > most_rows) {
+    section.blocks.emplace_back(
+        Paragraph{say("... and {} more", averages.points.size() - most_rows)});
+  }
+  return section;
+}
+
+}  // namespace
+
+Table averages_table(const Averages& averages) {
+  Table table;
+  table.columns = {{"series"},       {say("{d}"), "um"}, {say("{V}"), "m/s"}, {say("{e}")},
+                   {say("sd({e})")}, {"rebounds"},       {"missing"},         {"captured"}};
+  for (std::size_t i = 0; i < std::min(averages.points.size(), most_rows); ++i) {
+    const PointMean& point = averages.points[i];
+    const auto count = [](auto value) { return Number{static_cast<double>(value), fixed(0)}; };
+    table.rows.push_back(
+        {Sentence(point.series), Number{point.diameter / units::um, significant(4)},
+         Number{point.velocity, fixed(4)},
+         point.rebounds > 0 ? Cell(Number{point.restitution, fixed(4)}) : Cell(),
+         point.restitution_sd > 0.0 ? Cell(Number{point.restitution_sd, fixed(4)}) : Cell(),
+         count(point.rebounds), count(point.unpaired), count(point.captured)});
+  }
+  return table;
+}
+
+std::string pairing_text(const PassageTable& table, const PairingResult& pairs,
+                         const Averages& averages) {
+  return terminal_text({rows_section(table), impacts_section(table, pairs),
+                        unpaired_section(pairs, averages), points_section(averages)});
+}
+
+namespace {
+
+Json passages_json(const PassageTable& table) {
+  return {{"file", table.file},
+          {"rows", table.rows},
+          {"passages", table.passages.size()},
+          {"damaged", table.damaged},
+          {"repeated", table.duplicated},
+          {"out_of_order", table.unsorted},
+          {"columns_not_used", table.ignored},
+          {"provenance",
+           table.provenance ? Json(std::string(to_string(*table.provenance))) : Json(nullptr)}};
+}
+
+Json impacts_json(const PairingResult& pairs) {
+  const auto used = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
+                                  [](const Impact& impact) { return impact.used; });
+  const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
+                                   [](const Impact& impact) { return impact.number > 1; });
+  return {{"down", pairs.down},
+          {"up", pairs.up},
+          {"pairs", pairs.impacts.size()},
+          {"used", used},
+          {"later", later},
+          {"purity", number_or_null(pairs.purity())},
+          {"returns", pairs.returns},
+          {"expected_returns", number_or_null(pairs.expected_returns)}};
+}
+
+Json mean_json(const PointMean& point) {
+  const bool rebounds = point.rebounds > 0;
+  return {
+      {"series", point.series},
+      {"diameter_um", point.diameter / units::um},
+      {"incident_velocity", point.velocity},
+      {"velocity_sd", point.velocity_sd > 0.0 ? Json(point.velocity_sd) : Json(nullptr)},
+      {"restitution", rebounds ? number_or_null(point.restitution) : Json(nullptr)},
+      {"restitution_sd", point.restitution_sd > 0.0 ? Json(point.restitution_sd) : Json(nullptr)},
+      {"rebounds", point.rebounds},
+      {"unpaired", point.unpaired},
+      {"captured", point.captured},
+      {"events", point.events()}};
+}
+
+}  // namespace
+
+std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
+                         const Averages& averages) {
+  Json out;
+  out["format_version"] = format_version;
+  out["recoil_version"] = version();
+  out["passages"] = passages_json(table);
+  out["plane"] = {{"height_m", pairs.height},
+                  {"height_sd_m", pairs.refined ? number_or_null(pairs.height_sd) : Json(nullptr)},
+                  {"refined", pairs.refined}};
+  out["impacts"] = impacts_json(pairs);
+  out["without_rebound"] = {{"passages", averages.unpaired},
+                            {"lost", number_or_null(averages.lost)},
+                            {"too_slow", number_or_null(averages.too_slow)},
+                            {"captured", averages.captured},
+                            {"not_assigned", number_or_null(averages.unresolved)},
+                            {"lost_share", number_or_null(averages.lost_share)}};
+  out["points"] = Json::array();
+  for (const PointMean& point : averages.points) out["points"].push_back(mean_json(point));
+  return json_text(out);
+}
+
+}  // namespace recoil

@@ -1,0 +1,347 @@
+#include "report/plan_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/json.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "data/datapackage.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "predict/validity.hpp"
+#include "report/format.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_diagnosis.hpp"
+
+namespace recoil {
+
+namespace {
+
+constexpr std::size_t most_places = 3;
+
+Notation two_digit_percent() {
+  Notation notation = significant(2);
+  notation.scale = 100.0;
+  return notation;
+}
+
+Cell impacts_cell(const std::optional<double>& impacts) {
+  if (!impacts) return Sentence("no number");
+  return Number{std::ceil(*impacts), fixed(0)};
+}
+
+Sentence name_of_quantity(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
+  if (quantity.kind == PlannedKind::parameter) return symbol(quantity.label);
+  Sentence name = say("{V*} of {}", diameter_words(quantity.diameter));
+  if (plan.datasets.size() > 1) name += Sentence(", " + plan.datasets[quantity.dataset].id);
+  return name;
+}
+
+Sentence place_words(const ExperimentPlan& plan, std::size_t dataset, double diameter,
+                     double velocity) {
+  Sentence words = say("{} at {:.3g} m/s", diameter_words(diameter), velocity);
+  if (plan.datasets.size() > 1) words += Sentence(" on " + plan.datasets[dataset].id);
+  return words;
+}
+
+Paragraph plan_answer(const ExperimentPlan& plan) {
+  const PlannedQuantity* worst = &plan.quantities.front();
+  for (const PlannedQuantity& quantity : plan.quantities) {
+    if (quantity.error > worst->error) worst = &quantity;
+  }
+  Sentence text = say("{} impacts in {} points determine everything to {} or better", plan.impacts,
+                      plan.points, text_of(worst->error, in_percent(significant(2))));
+  if (plan.reached) {
+    return {text + say(", as wanted ({:.3g} %).", 100.0 * plan.options.error), true};
+  }
+  text += say("; wanted were {:.3g} %. Hardest is ", 100.0 * plan.options.error) +
+          name_of_quantity(plan, *worst);
+  text += worst->impacts
+              ? say(": {:.0f} impacts in the same proportions.", std::ceil(*worst->impacts))
+              : Sentence(
+                    ", for which no number of impacts would do: the constants of "
+                    "the materials are not known well enough.");
+  return {text, true};
+}
+
+Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
+  const PlanOptions& options = plan.options;
+  std::vector<std::pair<Sentence, Cell>> entries = {{"fit", Sentence(plan.fit)}};
+  const std::string adhesion(plan.model.slots[plan.model.slot_adhesion[0]].parameter->name);
+  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+    const Dataset& dataset = plan.datasets[d];
+    const double reference = plan.model.contacts[d].reference_diameter;
+    entries.emplace_back("dataset", say("{}: {} on {}; ", dataset.id, dataset.system.particle.name,
+                                        dataset.system.surface.name) +
+                                        symbol(adhesion) +
+                                        say(" is that of {}", diameter_words(reference)));
+  }
+  std::vector<Sentence> values;
+  for (std::size_t j = 0; j < plan.theta.size(); ++j) {
+    const ParameterSlot& slot = plan.model.slots[j];
+    if (slot.is_constant()) continue;
+    values.push_back(say("{} = {:.4g}", symbol(slot.label()), plan.theta[j]) +
+                     unit_after_number(slot.parameter->unit) +
+                     Sentence(slot.free ? "" : " (fixed)"));
+  }
+  entries.emplace_back("parameters", join(values, ", ") + Sentence("; " + assumed));
+  entries.emplace_back("velocities", say("{:.4g} to {:.4g} m/s", options.slowest, options.fastest));
+  entries.emplace_back(
+      "one impact",
+      say("{e} scatters by {:.3g} % of itself and {:.3g} beside it; {V*} differs by {:.3g} % from "
+          "impact to impact",
+          100.0 * options.scatter, options.floor, 100.0 * options.spread));
+  entries.emplace_back("one point", say("the mean of {} impacts", options.events));
+  return items(entries);
+}
+
+SizeUnit planned_unit(const ExperimentPlan& plan) {
+  std::vector<double> diameters;
+  for (const PlannedSetting& setting : plan.settings) diameters.push_back(setting.diameter);
+  return size_unit(diameters);
+}
+
+Table settings_table(const ExperimentPlan& plan) {
+  Table table;
+  table.caption =
+      say("What to measure: so many points of {} impacts each. Expected: the mean "
+          "{e} of the rebounds, its standard deviation over all points there, and the "
+          "share of spheres that stay",
+          plan.options.events);
+  table.columns = {{"dataset"},
+                   {say("{d}"), planned_unit(plan).name},
+                   {say("{V}"), "m/s"},
+                   {"points"},
+                   {"impacts"},
+                   {say("{e}")},
+                   {"sd"},
+                   {"captured", "%"}};
+  for (const PlannedSetting& setting : plan.settings) {
+    const bool returns = setting.sd > 0.0;
+    table.rows.push_back(
+        {plan.datasets.size() > 1 ? Cell(Sentence(plan.datasets[setting.dataset].id)) : Cell(),
+         Sentence(size_text(setting.diameter, planned_unit(plan))),
+         Number{setting.velocity, significant(3)},
+         Number{static_cast<double>(setting.points), fixed(0)},
+         Number{static_cast<double>(setting.points * plan.options.events), fixed(0)},
+         returns ? Cell(Number{setting.restitution, fixed(3)}) : Cell(),
+         returns ? Cell(Number{setting.sd, padded(2)}) : Cell(),
+         Number{100.0 * setting.captured, fixed(0)}});
+  }
+  if (plan.datasets.size() == 1) {  // the first cell of a row is its heading
+    table.columns.erase(table.columns.begin());
+    for (std::vector<Cell>& row : table.rows) row.erase(row.begin());
+  }
+  return table;
+}
+
+Table errors_table(const ExperimentPlan& plan) {
+  Table table;
+  table.caption =
+      say("Standard errors to be expected of this plan and of as many points evenly "
+          "spaced in ln {V} above capture, and the impacts that make each {:.3g} %: of "
+          "the plan, evenly spaced, and if nothing else were asked",
+          100.0 * plan.options.error);
+  table.columns = {{"quantity"},    {"assumed"}, {"unit"},           {"plan", "%"},
+                   {"evenly", "%"}, {"impacts"}, {"impacts evenly"}, {"impacts alone"}};
+  for (const PlannedQuantity& quantity : plan.quantities) {
+    table.rows.push_back({name_of_quantity(plan, quantity), Number{quantity.value, significant(4)},
+                          Sentence(quantity.unit), Number{quantity.error, two_digit_percent()},
+                          Number{quantity.plain_error, two_digit_percent()},
+                          impacts_cell(quantity.impacts), impacts_cell(quantity.plain_impacts),
+                          impacts_cell(quantity.alone_impacts)});
+  }
+  return table;
+}
+
+Table learnt_table(const ExperimentPlan& plan) {
+  Table table;
+  table.caption = "Where each is learnt: the best experiment for one of them alone";
+  table.columns = {{"quantity"}, {"impacts", "", true}};
+  for (const PlannedQuantity& quantity : plan.quantities) {
+    std::vector<Sentence> places;
+    for (const LearntAt& at : quantity.learnt_at) {
+      if (places.size() == most_places) break;
+      places.push_back(say("{:.0f} % ", 100.0 * at.share) +
+                       place_words(plan, at.dataset, at.diameter, at.velocity));
+    }
+    table.rows.push_back({name_of_quantity(plan, quantity), join(places, "; ")});
+  }
+  return table;
+}
+
+List limits_of_plan(const ExperimentPlan& plan) {
+  std::vector<Validity> all;
+  for (const PlannedSetting& setting : plan.settings) {
+    const std::vector<Validity> found =
+        impact_validity(plan.model, plan.datasets[setting.dataset].system, plan.theta,
+                        {setting.dataset, setting.diameter, setting.velocity});
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  List list;
+  for (const std::string& sentence : passed_limits(all, plan.datasets)) {
+    list.entries.push_back(as_sentence(Sentence(sentence)));
+  }
+  return list;
+}
+
+std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed) {
+  Section answer{"plan", "Plan", {}, {plan_answer(plan)}};
+  const Sentence efficiency =
+      say("the plan has at least {:.0f} % of the efficiency of the best one",
+          std::floor(100.0 * plan.efficiency));
+  answer.blocks.emplace_back(
+      Paragraph{plan.options.checks > 0.0
+                    ? say("{:.0f} % of the points are spread evenly, so that a wrong model shows; ",
+                          100.0 * plan.options.checks) +
+                          efficiency + Sentence(" without them.")
+                    : Sentence("No point is there to check the model (--checks 0); ") + efficiency +
+                          Sentence(".")});
+  return {std::move(answer),
+          {"assumed", "Assumed", {}, {assumptions(plan, assumed)}},
+          {"settings", "What to Measure", {}, {settings_table(plan)}},
+          {"errors", "Errors", {}, {errors_table(plan), learnt_table(plan)}},
+          {"limits", "Limits of the Model", {}, {limits_of_plan(plan)}}};
+}
+
+}  // namespace
+
+std::string plan_text(const ExperimentPlan& plan, const std::string& assumed) {
+  return terminal_text(plan_sections(plan, assumed));
+}
+
+std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
+  Document page;
+  page.title = "Plan for " + plan.fit;
+  page.heading = "What to measure";
+  page.subtitle = page.title;
+  page.name = plan.fit;
+  page.foot = "recoil " + version();
+  page.sections = plan_sections(plan, assumed);
+  return html_page(std::move(page));
+}
+
+namespace {
+
+Json count_or_null(const std::optional<double>& value) {
+  return value ? Json(std::ceil(*value)) : Json(nullptr);
+}
+
+Json assumed_json(const ExperimentPlan& plan) {
+  Json out;
+  for (std::size_t j = 0; j < plan.theta.size(); ++j) {
+    const ParameterSlot& slot = plan.model.slots[j];
+    out[slot.label()] = {{"value", number_or_null(plan.theta[j])},
+                         {"unit", slot.parameter->unit},
+                         {"free", slot.free}};
+  }
+  return out;
+}
+
+Json place_json(const ExperimentPlan& plan, std::size_t dataset, double diameter, double velocity) {
+  return {{"dataset", plan.datasets[dataset].id},
+          {"diameter_um", diameter / units::um},
+          {"incident_velocity", velocity}};
+}
+
+Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
+  Json out;
+  out["kind"] = to_string(quantity.kind);
+  if (quantity.kind == PlannedKind::parameter) {
+    out["parameter"] = quantity.label;
+  } else {
+    out["dataset"] = plan.datasets[quantity.dataset].id;
+    out["diameter_um"] = quantity.diameter / units::um;
+  }
+  out["value"] = number_or_null(quantity.value);
+  out["unit"] = quantity.unit;
+  out["relative_error"] = number_or_null(quantity.error);
+  out["relative_error_even"] = number_or_null(quantity.plain_error);
+  out["impacts"] = count_or_null(quantity.impacts);
+  out["impacts_even"] = count_or_null(quantity.plain_impacts);
+  out["impacts_alone"] = count_or_null(quantity.alone_impacts);
+  out["learnt_at"] = Json::array();
+  for (const LearntAt& at : quantity.learnt_at) {
+    Json place = place_json(plan, at.dataset, at.diameter, at.velocity);
+    place["share"] = at.share;
+    out["learnt_at"].push_back(std::move(place));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string json_plan(const ExperimentPlan& plan) {
+  const PlanOptions& options = plan.options;
+  Json out;
+  out["format_version"] = format_version;
+  out["recoil_version"] = version();
+  out["fit"] = plan.fit;
+  out["datasets"] = Json::array();
+  for (const Dataset& dataset : plan.datasets) {
+    out["datasets"].push_back({{"id", dataset.id},
+                               {"particle", dataset.system.particle.name},
+                               {"surface", dataset.system.surface.name}});
+  }
+  out["assumed"] = {{"parameters", assumed_json(plan)},
+                    {"velocities", {options.slowest, options.fastest}},
+                    {"scatter", options.scatter},
+                    {"floor", options.floor},
+                    {"spread", options.spread}};
+  out["wanted_error"] = options.error;
+  out["reached"] = plan.reached;
+  out["checks"] = options.checks;
+  out["points"] = plan.points;
+  out["events_per_point"] = options.events;
+  out["impacts"] = plan.impacts;
+  out["efficiency"] = number_or_null(plan.efficiency);
+  out["settings"] = Json::array();
+  for (const PlannedSetting& setting : plan.settings) {
+    Json row = place_json(plan, setting.dataset, setting.diameter, setting.velocity);
+    row["points"] = setting.points;
+    row["impacts"] = setting.points * options.events;
+    row["restitution"] = number_or_null(setting.restitution);
+    row["restitution_sd"] = setting.sd > 0.0 ? Json(setting.sd) : Json(nullptr);
+    row["captured"] = setting.captured;
+    out["settings"].push_back(std::move(row));
+  }
+  out["quantities"] = Json::array();
+  for (const PlannedQuantity& quantity : plan.quantities) {
+    out["quantities"].push_back(quantity_json(plan, quantity));
+  }
+  return json_text(out);
+}
+
+std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset) {
+  const std::vector<DataColumn>& columns = plan.datasets[dataset].columns;
+  std::string csv;
+  for (const DataColumn& column : columns) csv += (csv.empty() ? "" : ",") + column.name;
+  csv += '\n';
+  for (const PlannedSetting& setting : plan.settings) {
+    if (setting.dataset != dataset) continue;
+    std::string row;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (c > 0) row += ',';
+      const auto quantity = value_named<Quantity>(columns[c].name);
+      if (!quantity) continue;
+      const double factor = unit_factor(dimension_of(*quantity), columns[c].unit).value_or(1.0);
+      if (quantity == Quantity::series) {
+        row += diameter_words(setting.diameter);
+      } else if (quantity == Quantity::diameter) {
+        row += fmt::format("{:.6g}", setting.diameter / factor);
+      } else if (quantity == Quantity::incident_velocity) {
+        row += fmt::format("{:.6g}", setting.velocity / factor);
+      } else if (quantity == Quantity::events) {
+        row += fmt::format("{}", plan.options.events);
+      }
+    }
+    for (int k = 0; k < setting.points; ++k) csv += row + '\n';
+  }
+  return csv;
+}
+
+}  // namespace recoil

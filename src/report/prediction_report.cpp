@@ -1,0 +1,369 @@
+#include "report/prediction_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/json.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "document/terminal.hpp"
+#include "report/format.hpp"
+#include "report/panels.hpp"
+#include "report/words_dataset.hpp"
+
+namespace recoil {
+
+namespace {
+
+constexpr std::size_t rows_shown = 14;
+
+// ---- pictures ----------------------------------------------------------------------------------
+
+/// One look per convention, and per size, told apart by colour and dashes.
+constexpr std::array<plot::Stroke, 3> class_strokes = {{{plot::blue, 2.0},
+                                                        {plot::green, 2.0, plot::Dash::long_dashes},
+                                                        {plot::vermillion, 2.0, plot::Dash::dots}}};
+constexpr std::array<const char*, 3> average_names = {"captured as e = 0", "captured left out",
+                                                      "unseen left out"};
+
+plot::Band band_of(const std::vector<double>& velocity, const std::vector<BandedValue>& values,
+                   std::string_view colour) {
+  plot::Band band{velocity, {}, {}, {std::string(colour), 0.2}};
+  for (const BandedValue& value : values) {
+    band.lower.push_back(value.lower.value_or(NAN));
+    band.upper.push_back(value.upper.value_or(NAN));
+  }
+  return band;
+}
+
+plot::Line line_of(const std::vector<double>& velocity, const std::vector<BandedValue>& values,
+                   const plot::Stroke& stroke, const std::string& name) {
+  plot::Line line{velocity, {}, stroke};
+  line.name = name;
+  for (const BandedValue& value : values) line.y.push_back(value.value.value_or(NAN));
+  return line;
+}
+
+/// The points of the dataset.
+void add_points(const Analysis& analysis, std::size_t dataset, plot::Plot& shown) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
+    if (analysis.fitted.data.points[i].dataset == dataset) indices.push_back(i);
+  }
+  const auto points = rebound_layer(analysis, point_columns(analysis, indices),
+                                    to_string(analysis.datasets[dataset].provenance));
+  if (points) shown.layers.push_back(*points);
+}
+
+// ---- tables and words ---------------------------------------------------------------------------
+
+Cell banded(const BandedValue& at, const Notation& notation) {
+  if (!at.value) return {};
+  Number quantity{*at.value, notation};
+  if (at.lower && at.upper) quantity.band = {*at.lower, *at.upper};
+  return quantity;
+}
+
+/// The averages under the three conventions at some velocities, beside d10 alone.
+Table averages_table(const PolydispersePrediction& mixture) {
+  Table table;
+  table.caption = mixture.replicates > 0
+                      ? say("Mean restitution by convention, and captures, with pointwise {} bands "
+                            "of {} replicates",
+                            percent(mixture.level), mixture.replicates)
+                      : Sentence(
+                            "Mean restitution by convention, and captures, without bands: no "
+                            "bootstrap");
+  table.columns = {{say("{V}"), "m/s"},        {say("{d10} alone")}, {"captured as 0"},
+                   {"captured left out"},      {"unseen left out"},  {"captured", "%"},
+                   {"captured or unseen", "%"}};
+  Notation whole_percent = fixed(0);
+  whole_percent.scale = 100.0;
+  const std::size_t stride = std::max<std::size_t>(1, mixture.velocity.size() / rows_shown);
+  for (std::size_t k = 0; k < mixture.velocity.size(); k += stride) {
+    std::vector<Cell> row = {Number{mixture.velocity[k], padded(3)},
+                             cell_if(number_if(mixture.size_curves[1].restitution[k], fixed(3)))};
+    for (const auto& average : mixture.average) row.push_back(banded(average[k], fixed(3)));
+    row.push_back(banded(mixture.captured[k], whole_percent));
+    row.push_back(banded(mixture.unseen[k], whole_percent));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// How far the points lie from each curve.
+Table misses_table(const PolydispersePrediction& mixture) {
+  Table table;
+  table.caption = "Distance of the points from each curve";
+  table.columns = {{"curve"}, {say("rms of {e}")}, {"points with a prediction"}};
+  const auto add = [&](const Sentence& curve, const CurveMiss& miss) {
+    table.rows.push_back({curve, cell_if(number_if(miss.rmse, padded(2))),
+                          Number{static_cast<double>(miss.points), fixed(0)}});
+  };
+  add(say("{d10} alone"), mixture.miss_single);
+  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
+    add(words_of(all_conventions[c]), mixture.miss[c]);
+  }
+  return table;
+}
+
+/// The largest difference between two averages where both are, and where [m/s].
+struct Difference {
+  double value = 0.0;
+  double velocity = 0.0;
+};
+Difference largest_difference(const PolydispersePrediction& mixture) {
+  Difference largest;
+  for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
+    const auto& low = mixture.average[0][k].value;
+    const auto& high = mixture.average[2][k].value;
+    if (low && high && *high - *low > largest.value) {
+      largest = {*high - *low, mixture.velocity[k]};
+    }
+  }
+  return largest;
+}
+
+/// How the conventions differ, and which of them is nearest to the points.
+std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
+  std::vector<Sentence> words = {
+      say("{} to {} {um} in {} sizes, {d10} = {} {um}; capture below {} m/s for the smallest and "
+          "{} m/s for the largest",
+          diameter_text(mixture.sizes.smallest), diameter_text(mixture.sizes.largest),
+          mixture.simulated, diameter_text(mixture.sizes.mean_diameter()),
+          number(mixture.size_curves.front().capture_velocity, 3),
+          number(mixture.size_curves.back().capture_velocity, 3))};
+  if (!mixture.sizes.description.empty()) words.emplace_back(mixture.sizes.description);
+  const Difference apart = largest_difference(mixture);
+  if (apart.value > 0.0) {
+    words.push_back(say("the three conventions differ by up to {} in {e}, at {} m/s",
+                        digits(apart.value, 2), number(apart.velocity, 3)));
+  }
+  std::vector<std::pair<double, std::string>> misses;
+  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
+    if (mixture.miss[c].rmse) {
+      misses.emplace_back(*mixture.miss[c].rmse, words_of(all_conventions[c]));
+    }
+  }
+  if (!misses.empty() && mixture.miss_single.rmse) {
+    const auto best = std::min_element(misses.begin(), misses.end());
+    words.push_back(
+        say("the points are closest to the average with {}: rms {} in {e}, for {d10} "
+            "alone {}",
+            best->second, digits(best->first, 2), digits(*mixture.miss_single.rmse, 2)));
+  }
+  words.emplace_back("the fit used one diameter per point; nothing is fitted to the mixture");
+  return words;
+}
+
+List mixture_list(const PolydispersePrediction& mixture) {
+  List list;
+  for (const Sentence& words : mixture_words(mixture)) {
+    list.entries.push_back(as_sentence(words));
+  }
+  return list;
+}
+
+std::vector<Section> prediction_sections(const Analysis& analysis,
+                                         const PolydispersePrediction& mixture) {
+  const Dataset& dataset = analysis.datasets[mixture.dataset];
+  Section said{"mixture", "Mixture",
+               say("{} with the parameters of {}", mixture.sizes.file.string(), analysis.spec.id)};
+  said.blocks = {
+      items({{"dataset", say("{}, {}: {}", dataset.id, to_string(dataset.provenance),
+                             provenance_sentence(dataset.provenance))},
+             {"origin of sizes",
+              Sentence(mixture.sizes.provenance.empty() ? "not stated" : mixture.sizes.provenance)},
+             {"measuring plane",
+              say("{} mm above the surface: rebounds below {} m/s are not seen",
+                  number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
+  said.blocks.emplace_back(mixture_list(mixture));
+  return {std::move(said),
+          {"averages", "Weighted averages", {}, {averages_table(mixture)}},
+          {"misses", "Distance of the points", {}, {misses_table(mixture)}}};
+}
+
+}  // namespace
+
+std::string words_of(CaptureConvention convention) {
+  switch (convention) {
+    case CaptureConvention::captured_as_zero:
+      return "captured spheres count as e = 0";
+    case CaptureConvention::captured_left_out:
+      return "captured spheres left out";
+    case CaptureConvention::unseen_left_out:
+      return "spheres left out also when too slow to be seen";
+  }
+  return "";
+}
+
+std::string words_of(CaptureModel model) {
+  switch (model) {
+    case CaptureModel::fit:
+      return "this fit";
+    case CaptureModel::jkr:
+      return "JKR";
+    case CaptureModel::thornton_ning:
+      return "Thornton & Ning, yield";
+    case CaptureModel::dahneke:
+      return "Dahneke, eq. 1";
+    case CaptureModel::wall:
+      return "Wall et al., eq. 4";
+  }
+  return "";
+}
+
+Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture) {
+  plot::Plot shown;
+  shown.heading = "Weighted averages over the sizes";
+  if (analysis.datasets.size() > 1) shown.remark = analysis.datasets[mixture.dataset].id;
+  shown.x = velocity_axis({mixture.velocity.front(), mixture.velocity.back()});
+  shown.y = restitution_axis(1.05);
+  shown.key = plot::KeyPlace::below;
+  for (std::size_t k = 0; k < all_conventions.size(); ++k) {
+    shown.layers.push_back(band_of(mixture.velocity, mixture.average[k], class_strokes[k].colour));
+  }
+  for (std::size_t k = 0; k < all_conventions.size(); ++k) {
+    shown.layers.push_back(
+        line_of(mixture.velocity, mixture.average[k], class_strokes[k], average_names[k]));
+  }
+  const SizeCurve& mean = mixture.size_curves[1];
+  plot::Line single{mixture.velocity, mean.restitution, {plot::grey, 1.4}};
+  single.name = fmt::format("d10 = {} µm alone", diameter_text(mean.diameter));
+  shown.layers.push_back(std::move(single));
+  add_points(analysis, mixture.dataset, shown);
+  const std::string caption = fmt::format(
+      "The average over {} sizes under three conventions, with pointwise {} bands. Unseen: "
+      "rebounds "
+      "below {} m/s, which do not reach the measuring plane.",
+      mixture.simulated, percent(mixture.level), number(mixture.slowest_seen, 3));
+  plot::Picture picture;
+  picture.name = fmt::format("mixture-average-{}", mixture.dataset + 1);
+  picture.title = fmt::format("{}, {}", shown.heading, analysis.datasets[mixture.dataset].id);
+  picture.height = 390;
+  picture.plots = {std::move(shown)};
+  return figure_of(std::move(picture), caption);
+}
+
+std::string text_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
+  return terminal_text(prediction_sections(analysis, mixture));
+}
+
+std::vector<Block> mixture_blocks(const Analysis& analysis) {
+  std::vector<Block> blocks;
+  for (const PolydispersePrediction& mixture : analysis.mixtures) {
+    append(blocks, {Figures{{mixture_figure(analysis, mixture)}}, mixture_list(mixture),
+                    misses_table(mixture)});
+  }
+  return blocks;
+}
+
+namespace {
+
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6g}", *value) : std::string();
+}
+
+std::string cells(const BandedValue& at) {
+  return fmt::format(",{},{},{}", cell(at.value), cell(at.lower), cell(at.upper));
+}
+
+Json value_or_null(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : Json();
+}
+
+Json banded_json(const BandedValue& at) {
+  Json out;
+  out["value"] = value_or_null(at.value);
+  out["band"] = at.lower && at.upper ? Json::array({*at.lower, *at.upper}) : Json();
+  return out;
+}
+
+Json miss_json(const CurveMiss& miss) {
+  return {{"rmse", value_or_null(miss.rmse)}, {"points", miss.points}};
+}
+
+}  // namespace
+
+std::string csv_prediction(const PolydispersePrediction& mixture) {
+  std::string csv = "incident_velocity_m_s,restitution_d10";
+  for (const CaptureConvention convention : all_conventions) {
+    csv += fmt::format(",{0},{0}_lower,{0}_upper", to_string(convention));
+  }
+  for (const char* part : {"captured_fraction", "unseen_fraction"}) {
+    csv += fmt::format(",{0},{0}_lower,{0}_upper", part);
+  }
+  csv += '\n';
+  for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
+    const double single = mixture.size_curves[1].restitution[k];
+    csv += fmt::format("{:.6g},{}", mixture.velocity[k],
+                       std::isfinite(single) ? fmt::format("{:.6g}", single) : std::string());
+    for (const auto& average : mixture.average) csv += cells(average[k]);
+    csv += cells(mixture.captured[k]) + cells(mixture.unseen[k]) + '\n';
+  }
+  return csv;
+}
+
+std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
+  const Dataset& dataset = analysis.datasets[mixture.dataset];
+  Json out;
+  out["format_version"] = format_version;
+  out["recoil"] = version();
+  out["fit"] = analysis.spec.id;
+  out["dataset"] = {{"id", dataset.id},
+                    {"provenance", to_string(dataset.provenance)},
+                    {"provenance_sentence", provenance_sentence(dataset.provenance)},
+                    {"sha256", dataset.sha256}};
+  Json bins = Json::array();
+  for (const SizeBin& bin : mixture.sizes.bins) {
+    bins.push_back({{"diameter_um", bin.diameter / units::um},
+                    {"width_um", bin.width / units::um},
+                    {"weight", bin.weight}});
+  }
+  out["sizes"] = {{"file", mixture.sizes.file.string()},
+                  {"provenance", mixture.sizes.provenance},
+                  {"description", mixture.sizes.description},
+                  {"sha256", mixture.sizes.sha256},
+                  {"d10_um", mixture.sizes.mean_diameter() / units::um},
+                  {"simulated", mixture.simulated},
+                  {"bins", bins}};
+  out["probe_height_m"] = mixture.probe_height;
+  out["slowest_seen_m_s"] = mixture.slowest_seen;
+  out["level"] = mixture.level;
+  out["replicates"] = mixture.replicates;
+  out["seed"] = analysis.uncertainty.bootstrap.seed;
+  Json conventions;
+  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
+    conventions[to_string(all_conventions[c])] = {{"means", words_of(all_conventions[c])},
+                                                  {"miss", miss_json(mixture.miss[c])}};
+  }
+  out["conventions"] = conventions;
+  out["d10_alone"] = {{"miss", miss_json(mixture.miss_single)}};
+  Json sizes = Json::array();
+  for (const SizeCurve& size : mixture.size_curves) {
+    sizes.push_back({{"name", to_string(size.size)},
+                     {"diameter_um", size.diameter / units::um},
+                     {"capture_velocity", number_or_null(size.capture_velocity)},
+                     {"restitution", as_json(size.restitution)}});
+  }
+  out["size_curves"] = sizes;
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
+    Json row;
+    row["incident_velocity"] = mixture.velocity[k];
+    for (std::size_t c = 0; c < all_conventions.size(); ++c) {
+      row[to_string(all_conventions[c])] = banded_json(mixture.average[c][k]);
+    }
+    row["captured_fraction"] = banded_json(mixture.captured[k]);
+    row["unseen_fraction"] = banded_json(mixture.unseen[k]);
+    rows.push_back(row);
+  }
+  out["curve"] = rows;
+  return json_text(out);
+}
+
+}  // namespace recoil

@@ -1,0 +1,596 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "mechanism/mechanism.hpp"
+#include "report/format.hpp"
+#include "report/words_fit.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+
+namespace recoil {
+namespace {
+
+using Sentences = std::vector<Sentence>;
+
+Sentence label_of(const ImpactModel& model, std::size_t slot) {
+  return symbol(model.slots[slot].label());
+}
+
+// ---- why intervals differ ----------------------------------------------------------------------
+
+Sentence bound_words(const Disagreement& found, const ImpactModel& model, std::size_t slot) {
+  if (found.estimate_at_bound) return "the estimate is at its bound";
+  if (!found.on_bound) return {};
+  const auto& [other, share, correlation] = *found.on_bound;
+  if (other == slot) return say("{:.0f} % of the replicates are at a bound", 100.0 * share);
+  return say("{:.0f} % of the replicates have {} at its bound (correlation {:.2f})", 100.0 * share,
+             label_of(model, other), correlation);
+}
+
+std::string skew_words(const Disagreement& found) {
+  std::vector<std::string> signs;
+  if (found.acceleration) signs.push_back(fmt::format("acceleration {:+.2g}", *found.acceleration));
+  if (found.bias) signs.push_back(fmt::format("bias z0 = {:+.2g}", *found.bias));
+  if (found.arms) {
+    signs.push_back(fmt::format("the profile reaches {:.2g} times as far up as down", *found.arms));
+  }
+  return fmt::format("skewed distribution ({})", fmt::join(signs, ", "));
+}
+
+// ---- cautions ----------------------------------------------------------------------------------
+
+Sentence undecided_words(const Sentence& what, double factor) {
+  return say(
+      "the error of {} changes by a factor of {:.1f} with the assumed growth of the scatter "
+      "towards capture, which the points do not decide: state standard deviations, or measure "
+      "more points",
+      what, factor);
+}
+
+/// The mechanism that describes several sizes in one point.
+std::string_view mechanism_of_sizes() {
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (mechanism.info.mixes_sizes) return mechanism.info.id;
+  }
+  return "";
+}
+
+Sentence wide_spread_words(const Sentence& what, double event_spread) {
+  return say(
+      "the interval of {} cannot be trusted: the capture velocity scatters by {:.0f} % from impact "
+      "to impact, and the treatment of survivors is valid up to {:.0f} %; if a point averages over "
+      "several sizes, sort them into size classes (recoil pair --size-edges) or fit their spread "
+      "(mechanisms = [\"{}\"])",
+      what, 100.0 * event_spread, 100.0 * widest_spread, mechanism_of_sizes());
+}
+
+// ---- bootstrap ---------------------------------------------------------------------------------
+
+const char* resampled_words(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::parametric:
+      return "new noise is drawn about the fitted curve";
+    case Scheme::residual:
+      return "residuals, scaled for leverage and centred, are exchanged among the points";
+    case Scheme::wild:
+      return "each point keeps its residual, scaled for leverage (HC3), with a random sign";
+    case Scheme::cases:
+      return "points are drawn with replacement";
+    case Scheme::cluster:
+      return "whole series are drawn with replacement";
+    case Scheme::automatic:
+      break;
+  }
+  return "";
+}
+
+std::string suspect_words(const FailedReplicates::Suspect& suspect, Scheme scheme,
+                          const Observations& data) {
+  const Observation& point = data.points[suspect.point];
+  const std::string place = fmt::format("point {} (d = {}, V = {:.4g} m/s)", suspect.point + 1,
+                                        diameter_words(point.diameter), point.velocity);
+  const bool counted = scheme == Scheme::cases || scheme == Scheme::cluster;
+  return counted ? fmt::format("{} is drawn {:.2g} times instead of {:.2g}", place,
+                               suspect.failed + 1.0, suspect.usual + 1.0)
+                 : fmt::format("{} is moved by {:+.2g} standard deviations instead of {:+.2g}",
+                               place, suspect.failed, suspect.usual);
+}
+
+// ---- identifiability ---------------------------------------------------------------------------
+
+/// "2.1 %", or "a factor of 3" where the error is too large for per cents.
+std::string known_to(double relative_sd) {
+  constexpr double still_percent = 0.5;
+  constexpr double still_known = 7.0;  // a factor of 1100
+  if (!(relative_sd < still_known)) return "nothing at all";
+  if (relative_sd < still_percent) return fmt::format("{:.2g} %", 100.0 * relative_sd);
+  return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
+}
+
+/// Why a parameter is poorly determined, after its name.
+std::string hindrance_words(const ParameterIdentifiability& found, const Interval& interval) {
+  switch (*found.hindrance) {
+    case Hindrance::no_interval:
+      return "has no interval: " + missing_words(interval);
+    case Hindrance::reaches_upper_bound:
+      return "reaches its upper bound";
+    case Hindrance::reaches_lower_bound:
+      return "reaches its lower bound";
+    case Hindrance::rests_on_bound:
+      return "is at its bound";
+    case Hindrance::consistent_with_zero:
+      return "is consistent with zero";
+    case Hindrance::large_error:
+      return fmt::format("is known only to {:.0f} %", 100.0 * found.relative_error);
+    case Hindrance::uncertain_error:
+      return fmt::format("has an error of {:.0f} %, or up to {:.0f} % as the noise is estimated",
+                         100.0 * found.relative_error, 100.0 * found.largest_relative_error);
+    case Hindrance::undecided_noise:
+    case Hindrance::wide_spread:
+      break;  // sentences of their own
+  }
+  return "";
+}
+
+Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& uncertainty) {
+  const Identifiability& found = uncertainty.identifiability;
+  Sentences sentences, not_trusted;
+  for (std::size_t j = 0; j < found.parameter.size(); ++j) {
+    const ParameterIdentifiability& parameter = found.parameter[j];
+    if (!fitted.model.slots[j].free) continue;
+    const Sentence label = label_of(fitted.model, j);
+    if (parameter.upper_limit) {
+      sentences.push_back(
+          say("{} is small and consistent with zero: its interval is an upper limit", label));
+    }
+    if (!parameter.hindrance) continue;
+    if (parameter.hindrance == Hindrance::wide_spread) {
+      not_trusted.push_back(label);
+    } else if (parameter.hindrance == Hindrance::undecided_noise) {
+      sentences.push_back(undecided_words(label, parameter.noise_factor));
+    } else {
+      const Interval& interval = recommended_interval(uncertainty.intervals[j]);
+      sentences.push_back(say("{} {}", label, hindrance_words(parameter, interval)));
+    }
+  }
+  if (!not_trusted.empty()) {
+    sentences.push_back(wide_spread_words(join(not_trusted, " and "), found.event_spread));
+  }
+  return sentences;
+}
+
+/// Parameters that are known together only, and how well their combinations are.
+Sentences correlation_sentences(const FitResult& fitted, const Identifiability& found) {
+  Sentences sentences;
+  for (const auto& [one, other, correlation] : found.correlated) {
+    sentences.push_back(say("{} and {} are strongly correlated ({:.3f}): quote them together",
+                            label_of(fitted.model, one), label_of(fitted.model, other),
+                            correlation));
+  }
+  const auto& directions = found.information.directions;
+  if (found.correlated.empty() || directions.size() < 2) return sentences;
+  sentences.push_back(
+      say("the points determine {} to {}, but {} only to {}",
+          direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
+          direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
+  return sentences;
+}
+
+/// How near the points come to the capture velocity, and what more of them would determine.
+Sentences reach_sentences(const FitResult& fitted, const Identifiability& found) {
+  Sentences sentences;
+  if (found.slowest) {
+    sentences.push_back(fmt::format(
+        "the slowest impacts are at {:.2g} times the fitted capture velocity", *found.slowest));
+  }
+  if (!found.more_points || fitted.covariance.empty()) return sentences;
+  Sentences gains;
+  for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
+    gains.push_back(
+        say("{} to {} instead of {}", label_of(fitted.model, slot), known_to(then), known_to(now)));
+  }
+  if (gains.empty()) return sentences;
+  const PlannedPoints& plan = found.information.plans.front();
+  sentences.push_back(say("{} more points of {} at {:.3g} m/s would determine {}", plan.points,
+                          diameter_sentence(plan.diameter), plan.velocity, join(gains, ", ")));
+  return sentences;
+}
+
+Sentence words_of(Combination combination) {
+  switch (combination) {
+    case Combination::capture_velocity:
+      return say("the capture velocity: {V*}{} ~ {V_a}{} ({C_A} + 2 {C_H})", exponent("2"),
+                 exponent("3"));
+    case Combination::adhesion_loss:
+      return say("the loss to adhesion far above capture, {C_A} {f0}");
+    case Combination::plateau_loss:
+      return say("the loss of the fastest impacts, {C_H}");
+  }
+  return {};
+}
+
+/// Is this the diameter at which the parameters of its dataset are quoted?
+bool is_reference(const Analysis& a, const CaptureEstimate& capture) {
+  const double reference = a.fitted.model.contacts[capture.dataset].reference_diameter;
+  const auto distance = [&](double diameter) { return std::abs(std::log(diameter / reference)); };
+  return std::none_of(a.uncertainty.capture.begin(), a.uncertainty.capture.end(),
+                      [&](const CaptureEstimate& other) {
+                        return other.dataset == capture.dataset &&
+                               distance(other.diameter) < distance(capture.diameter);
+                      });
+}
+
+}  // namespace
+
+std::string words_of(IntervalKind kind) {
+  switch (kind) {
+    case IntervalKind::wald:
+      return "Wald";
+    case IntervalKind::bca:
+      return "BCa";
+    case IntervalKind::profile:
+    case IntervalKind::percentile:
+    case IntervalKind::studentized:
+      break;
+  }
+  return to_string(kind);
+}
+
+std::string missing_words(const Interval& interval) {
+  if (interval.available()) return "";
+  if (!interval.missing) return "not computed";
+  switch (*interval.missing) {
+    case NoInterval::not_assessed:
+      return "no uncertainty was assessed";
+    case NoInterval::fixed:
+      return "the parameter is fixed";
+    case NoInterval::nothing_free:
+      return "no parameter is free";
+    case NoInterval::no_standard_error:
+      return "no standard error (at a bound, or not determined)";
+    case NoInterval::refit_failed:
+      return "a constrained refit along the profile failed";
+    case NoInterval::few_replicates:
+      return "fewer usable replicates than the level needs";
+    case NoInterval::few_delete_one_refits:
+      return "fewer than three delete-one refits succeeded";
+    case NoInterval::one_sided_replicates:
+      return "all replicates are on one side of the estimate";
+    case NoInterval::large_acceleration:
+      return "the acceleration is too large for this level";
+    case NoInterval::replicates_without_error:
+      return "more than a tenth of the replicates are at a bound and have no error";
+    case NoInterval::refits_failed:
+      return "withheld, as more than a tenth of the refits failed";
+    case NoInterval::never_rebounds:
+      return "spheres of this size never rebound under the fit";
+    case NoInterval::never_captured:
+      return "no sphere is captured under the fit";
+    case NoInterval::no_covariance:
+      return "the fit has no standard errors";
+    case NoInterval::all_captured:
+      return "every point says only that all or none of its impacts were captured";
+    case NoInterval::noise_unknown:
+      return "the noise is not known";
+  }
+  return "";
+}
+
+Sentence note_words(const Interval& interval, const Sentence& what) {
+  if (!interval.note) return {};
+  const double value = interval.note->value;
+  switch (interval.note->caution) {
+    case Caution::spans_both_bounds:
+      return "the interval spans both bounds: the data do not limit this parameter";
+    case Caution::begins_at_bound:
+      return say("the interval begins at the bound {:g} and is an upper limit", value);
+    case Caution::ends_at_bound:
+      return say("the interval ends at the bound {:g} and is a lower limit", value);
+    case Caution::undecided_noise:
+      return undecided_words(what, value);
+    case Caution::wide_spread:
+      return wide_spread_words(what, value);
+    case Caution::mixed_sizes:
+      return say(
+          "the interval of {} is too narrow, because every point averages over many sizes: in "
+          "simulations {:.0f} % of such 95 % intervals contained the truth",
+          what, 100.0 * value);
+    case Caution::model_rejected:
+      return say(
+          "{} and its interval follow from a model that the data reject (p {}): the interval does "
+          "not include the error of the model",
+          what, value < 1e-6 ? "< 1e-6" : fmt::format("= {:.2g}", value));
+  }
+  return {};
+}
+
+std::string short_note(Caution caution) {
+  switch (caution) {
+    case Caution::spans_both_bounds:
+      return "not limited by the data";
+    case Caution::begins_at_bound:
+      return "upper limit";
+    case Caution::ends_at_bound:
+      return "lower limit";
+    case Caution::undecided_noise:
+    case Caution::wide_spread:
+    case Caution::mixed_sizes:
+      break;
+    case Caution::model_rejected:
+      return "the data reject the model";
+  }
+  return "";
+}
+
+std::string recommended_words(const IntervalSet& set) {
+  switch (set.because) {
+    case RecommendedBecause::noise_stated:
+      return "profile likelihood";
+    case RecommendedBecause::noise_estimated:
+      return "profile likelihood, with Student's factor because the noise is estimated";
+    case RecommendedBecause::no_profile:
+      return "there is no profile: " + missing_words(set[IntervalKind::profile]);
+  }
+  return "";
+}
+
+std::string recommended_words(const CaptureEstimate& capture) {
+  if (!capture.because) return "";
+  switch (*capture.because) {
+    case CaptureBecause::no_delta:
+      return missing_words(capture[CaptureIntervalKind::delta]);
+    case CaptureBecause::at_bound:
+      return "a parameter is at its bound, which the delta method ignores";
+    case CaptureBecause::bend:
+      return "V* is not linear in the parameters, as the delta method assumes";
+    case CaptureBecause::no_percentiles:
+      return "there are no percentiles: " + missing_words(capture[CaptureIntervalKind::percentile]);
+    case CaptureBecause::spread_estimated:
+      return "the error includes that of the estimated spread of the impacts";
+    case CaptureBecause::noise_estimated:
+      return "the error includes that of the estimated noise";
+  }
+  return "";
+}
+
+Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
+  if (!set.disagreement) return {};
+  const Disagreement& found = *set.disagreement;
+  std::vector<std::string> differing;
+  for (const auto& [kind, by] : found.differing) {
+    differing.push_back(fmt::format("{} by {:.0f} %", words_of(kind), 100.0 * by));
+  }
+  Sentences reasons;
+  if (Sentence bound = bound_words(found, fitted.model, slot); !bound.empty()) {
+    reasons.push_back(std::move(bound));
+  }
+  if (found.ridge) {
+    reasons.push_back(say("correlated with {} ({:.3f})",
+                          label_of(fitted.model, found.ridge->partner), found.ridge->correlation));
+  }
+  if (found.skewed()) reasons.emplace_back(skew_words(found));
+  if (found.few_points) {
+    reasons.push_back(
+        say("{} degrees of freedom, for which Wald, profile and studentized intervals allow with a "
+            "factor of {:.2f}",
+            found.few_points->dof, found.few_points->factor));
+  }
+  if (reasons.empty()) reasons.emplace_back("without an obvious reason");
+  return say("{}: the intervals differ from the {} interval ({} of its width): {}",
+             label_of(fitted.model, slot), words_of(set.recommended),
+             fmt::format("{}", fmt::join(differing, ", ")), join(reasons, "; "));
+}
+
+std::string scheme_words(const BootstrapResult& bootstrap) {
+  std::string why;
+  switch (bootstrap.because) {
+    case SchemeBecause::asked_for:
+      why = "requested";
+      break;
+    case SchemeBecause::sd_stated:
+      why = "every point states its standard deviation";
+      break;
+    case SchemeBecause::sd_not_stated:
+      why = "no standard deviations are stated";
+      break;
+    case SchemeBecause::no_residuals:
+      why = "no point rebounded, so there are no residuals";
+      break;
+    case SchemeBecause::shared_sizes:
+      why = "points of one series share an error of their diameter";
+      break;
+  }
+  constexpr std::size_t few = 10;
+  const bool too_few = bootstrap.scheme == Scheme::cluster && bootstrap.series < few;
+  return fmt::format("{}: {}{}", why, resampled_words(bootstrap.scheme),
+                     too_few ? fmt::format("; {} series are too few, so intervals are too narrow",
+                                           bootstrap.series)
+                             : std::string());
+}
+
+std::string failure_message(const FailedReplicates& failures) {
+  return failures.undetermined ? "its points do not determine all free parameters"
+                               : failures.message;
+}
+
+std::string failures_words(const BootstrapResult& bootstrap, const Observations& data) {
+  const FailedReplicates& failures = bootstrap.failures;
+  if (failures.index.empty()) return "";
+  std::vector<std::string> unlike;
+  for (const FailedReplicates::Suspect& suspect : failures.suspects) {
+    if (!unlike.empty() && !suspect.clearly_unlike) continue;
+    unlike.push_back(suspect_words(suspect, bootstrap.scheme, data));
+  }
+  return fmt::format("{} of {} refits failed{}{}. The first is replicate {} (seed {}): {}",
+                     failures.index.size(), bootstrap.replicates,
+                     unlike.empty() ? "" : "; in them ", fmt::join(unlike, "; "),
+                     failures.index.front(), bootstrap.seed, failure_message(failures));
+}
+
+std::string held_out_words(const TwoPointComparison& comparison) {
+  if (!comparison.nothing_held_out) return "";
+  switch (*comparison.nothing_held_out) {
+    case NothingHeldOut::single_diameter:
+      return "the dataset has a single diameter, so none is held out";
+    case NothingHeldOut::refit_failed:
+      return "the full fit of that diameter alone failed: " + comparison.refit_failure;
+  }
+  return "";
+}
+
+Sentence direction_words(const FitResult& fitted, const InformationDirection& direction) {
+  constexpr double negligible = 0.05;
+  Sentence product;
+  for (std::size_t j = 0; j < direction.exponents.size(); ++j) {
+    const double power = direction.exponents[j];
+    if (std::abs(power) < negligible) continue;
+    if (!product.empty()) product += " ";
+    product += label_of(fitted.model, j);
+    if (std::abs(power - 1.0) >= 0.005) product += exponent(fmt::format("{:.2f}", power));
+  }
+  if (direction.meaning) product += say(" ({})", words_of(*direction.meaning));
+  return product;
+}
+
+Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty) {
+  const Identifiability& found = uncertainty.identifiability;
+  if (!found.assessed()) return {};
+  Sentences sentences = parameter_sentences(fitted, uncertainty);
+  if (sentences.empty()) {
+    const bool any_free = std::any_of(fitted.model.slots.begin(), fitted.model.slots.end(),
+                                      [](const ParameterSlot& slot) { return slot.free; });
+    sentences.emplace_back(any_free ? "every free parameter is well determined"
+                                    : "no parameter is free");
+  }
+  for (const Sentences& more :
+       {correlation_sentences(fitted, found), reach_sentences(fitted, found)}) {
+    sentences.insert(sentences.end(), more.begin(), more.end());
+  }
+  return join(sentences, "; ") + ".";
+}
+
+std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
+                                           const Observations& data) {
+  Sentences warnings;
+  const BootstrapResult& boot = uncertainty.bootstrap;
+  if (boot.failed_often()) {
+    warnings.emplace_back(failures_words(boot, data) +
+                          (boot.withheld() ? "; intervals from replicates are withheld" : ""));
+  }
+  const UncertaintyOptions& options = uncertainty.options;
+  if (options.replicates_auto && boot.relative_error.value_or(0.0) > options.wanted_error) {
+    warnings.push_back(fmt::format(
+        "after {} replicates the end of an interval is uncertain by {:.1f} % of its width, more "
+        "than the {:.1f} % wanted",
+        boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
+  }
+  for (const CaptureEstimate& capture : uncertainty.capture) {
+    const Sentence size = diameter_sentence(capture.diameter);
+    if (!capture.found) {
+      warnings.push_back(
+          say("no capture velocity at {d} = {}: {}", size, missing_words(capture.interval)));
+    } else if (capture.interval.note) {
+      warnings.push_back(
+          say("{d} = {}: {}", size, note_words(capture.interval, "the capture velocity")));
+    }
+  }
+  return warnings;
+}
+
+std::string no_posterior_words(const PosteriorResult& posterior) {
+  if (posterior.available()) return {};
+  switch (*posterior.missing) {
+    case NoPosterior::no_walkers:
+      return "no posterior: the model mostly has no answer near the estimate";
+    case NoPosterior::not_settled:
+      return fmt::format("no posterior: the chains have not converged after {} steps",
+                         posterior.steps);
+    case NoPosterior::few_points:
+      return "no posterior: the noise is unknown, and there are no more points than parameters";
+  }
+  return {};
+}
+
+Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {
+  const std::string where =
+      a.datasets.size() > 1 ? ", " + short_name(a.datasets, capture.dataset) : "";
+  return say("{V*}({}{})", diameter_sentence(capture.diameter), where);
+}
+
+std::string source_words(const BudgetEntry& entry, const ImpactModel& model) {
+  switch (entry.source) {
+    case BudgetSource::scatter:
+      return "scatter of the points";
+    case BudgetSource::velocity:
+      return "errors of the velocities";
+    case BudgetSource::diameter:
+      return "errors of the diameters";
+    case BudgetSource::spread:
+      return "the estimated spread of the impacts";
+    case BudgetSource::constant:
+      return model.slots[model.first_constant() + entry.constant].label();
+    case BudgetSource::numerics:
+      return "numerics";
+  }
+  return {};
+}
+
+std::vector<BudgetOf> reference_budgets(const Analysis& a) {
+  std::vector<BudgetOf> all;
+  const auto& slots = a.fitted.model.slots;
+  for (std::size_t j = 0; j < a.uncertainty.budgets.size(); ++j) {
+    const ErrorBudget& budget = a.uncertainty.budgets[j];
+    if (!budget.available()) continue;
+    all.push_back({parameter_words(a.fitted.model, j, a.datasets),
+                   std::string(slots[j].parameter->unit), &budget});
+  }
+  for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
+    const ErrorBudget& budget = a.uncertainty.capture_budgets[k];
+    const CaptureEstimate& capture = a.uncertainty.capture[k];
+    if (!budget.available() || !is_reference(a, capture)) continue;
+    all.push_back({capture_name(a, capture), "m/s", &budget});
+  }
+  return all;
+}
+
+std::vector<Sentence> budget_sentences(const Analysis& a) {
+  std::vector<std::pair<std::string, Sentences>> by_source;
+  const ImpactModel& model = a.fitted.model;
+  if (model.constants.empty()) return {};
+  for (const BudgetOf& of : reference_budgets(a)) {
+    const BudgetEntry& first = of.budget->entries.front();
+    const std::string source = first.source == BudgetSource::constant
+                                   ? "the " + constant_words(model, first.constant, a.datasets)
+                                   : source_words(first, model);
+    auto found = std::find_if(by_source.begin(), by_source.end(),
+                              [&](const auto& one) { return one.first == source; });
+    if (found == by_source.end()) found = by_source.insert(found, {source, {}});
+    found->second.push_back(say("{} ({:.0f} %)", of.quantity, 100.0 * first.share));
+  }
+  Sentences sentences;
+  for (const auto& [source, quantities] : by_source) {
+    sentences.push_back(say("largest source of error (share of the variance): {}, for {}", source,
+                            join(quantities, ", ")));
+  }
+  return sentences;
+}
+
+Sentence moved_words(const Analysis& a) {
+  Sentences moved;
+  const ImpactModel& model = a.fitted.model;
+  for (std::size_t k = 0; k < a.fitted.constants_moved.size(); ++k) {
+    const double by = a.fitted.constants_moved[k];
+    if (std::abs(by) < 1.0) continue;
+    moved.push_back(say("{} by {:+.1f}", constant_words(model, k, a.datasets), by));
+  }
+  if (moved.empty()) return {};
+  return say(
+      "the fit moves material constants away from their stated values ({} standard deviations): "
+      "these may be the true values, or they compensate for an effect that the model lacks",
+      join(moved, ", "));
+}
+
+}  // namespace recoil
