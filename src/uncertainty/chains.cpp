@@ -93,13 +93,14 @@ double effective_draws(const ChainDraws& chains) {
     }
     return 1.0 - (v.within - covariance / all) / v.marginal;
   };
-  // Sums of two neighbours are positive and fall: the first that is negative ends the sum.
+  // Sums of two neighbours are positive and fall: the first that is negative ends the sum,
+  // or the end of the chain.
   double time = -1.0;
   double last = INFINITY;
   for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
     const double even = correlation(lag);
     const double pair = even + correlation(lag + 1);
-    if (pair < 0.0) {
+    if (pair < 0.0 || lag + 5 >= n) {
       time += std::max(even, 0.0);
       break;
     }
