@@ -279,7 +279,8 @@ def test_every_shipped_fit_settles_in_ten_seconds(place, command, name, material
         assert found["r_hat"] < 1.01
         assert min(found["effective_draws"], found["effective_tail_draws"]) >= 400
         draws = np.array([float(row[parameter]) for row in rows])
-        assert found["r_hat"] == pytest.approx(folded_r_hat(draws.reshape(shape)), abs=1e-6)
+        # The two draws beside the median are equally far from it: nine digits decide which is first.
+        assert found["r_hat"] == pytest.approx(folded_r_hat(draws.reshape(shape)), abs=5e-5)
         assert found["mean"] == pytest.approx(draws.mean(), rel=1e-6)
     # ln likelihood of all points together: of the sum of their terms, elpd lies below the best.
     loo = posterior["loo"]
@@ -292,7 +293,7 @@ def test_every_shipped_fit_settles_in_ten_seconds(place, command, name, material
 def test_draws_are_what_arviz_reads(here):
     import recoil
 
-    result = recoil.fit("mine.toml", uncertainty={"posterior": True}, replicates=0)
+    result = recoil.fit("mine", uncertainty={"posterior": True}, replicates=0)
     draws = result.draws()
     chains, length = draws["posterior"]["C_A"].shape
     assert chains * length == result.facts.posterior.draws
@@ -310,4 +311,4 @@ def test_draws_are_what_arviz_reads(here):
             raw = -np.log(np.mean(np.exp(-pointwise[:, :, k])))
             assert elpd == pytest.approx(raw, abs=0.05)
     with pytest.raises(recoil.InputError, match="not sampled"):
-        recoil.fit("mine.toml", replicates=0).draws()
+        recoil.fit("mine", replicates=0).draws()
