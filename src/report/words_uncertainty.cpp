@@ -549,10 +549,10 @@ Sentence leave_one_out_words(const Analysis& a) {
   }
   if (names.empty()) return words + say("No point has a Pareto k above {:g}.", largest_pareto_k);
   return words +
-         say("The posterior leans on {} (Pareto k above {:g}): without {} it is another, and "
-             "these terms are not to be trusted.",
+         say("For {} this estimate is not reliable (Pareto k above {:g}): the posterior depends "
+             "strongly on {}.",
              fmt::to_string(fmt::join(names, ", ")), largest_pareto_k,
-             std::string(names.size() == 1 ? "this point" : "one of these points"));
+             std::string(names.size() == 1 ? "this point" : "each of these points"));
 }
 
 Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {

@@ -13,7 +13,7 @@ class KeptRows;
 struct PosteriorOptions {
   double level = 0.95;
   std::uint64_t seed = 20260101;
-  int threads = 0;                ///< 0: all cores. No digit depends on it.
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
   std::size_t chains = 4;
   std::size_t length = 1000;     ///< draws that are kept of every chain
   int most_steps = 64000;        ///< of a chain in one round, beyond which the sampler gives up
