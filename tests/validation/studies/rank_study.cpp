@@ -160,6 +160,13 @@ double least_probability(const std::vector<int>& ranks) {
   return least;
 }
 
+/// The share of ranks 5 to 94, 90 of 100: of equal-tailed 90 % intervals that hold the truth.
+double share_within(const std::vector<int>& ranks) {
+  const auto within =
+      std::count_if(ranks.begin(), ranks.end(), [](int rank) { return rank >= 5 && rank < 95; });
+  return static_cast<double>(within) / static_cast<double>(ranks.size());
+}
+
 std::string title_of(RankArm arm) {
   switch (arm) {
     case RankArm::stated_noise:
@@ -285,7 +292,7 @@ plot::Picture rank_picture(const RankStudy& study) {
   picture.name = "posterior-ranks";
   picture.title = "Ranks of the truth among draws of the posterior";
   picture.width = 900;
-  picture.height = 640;
+  picture.height = 700;
   picture.key.place = plot::KeyPlace::below;
   const RankBand band = rank_band(study.sets);
   std::vector<double> x;
@@ -297,7 +304,7 @@ plot::Picture rank_picture(const RankStudy& study) {
   for (std::size_t a = 0; a < rank_arms.size(); ++a) {
     plot::Plot& panel = picture.plots.emplace_back();
     const double left = a % 2 == 0 ? 80.0 : 540.0;
-    const double bottom = a < 2 ? 370.0 : 100.0;
+    const double bottom = a < 2 ? 390.0 : 90.0;
     panel.frame = plot::Frame{left, left + 340.0, bottom, bottom + 210.0};
     panel.heading = title_of(rank_arms[a]);
     panel.x = {"rank of the truth"};
@@ -343,13 +350,18 @@ Document rank_page(const RankStudy& study) {
       "2022).",
       study.sets, rank_draws)}};
   Table table;
-  table.columns = {
-      {"data", {}, true}, {"parameter", {}, true}, {"data sets"}, {"without a posterior"}, {"p"}};
+  table.columns = {{"data", {}, true},
+                   {"parameter", {}, true},
+                   {"data sets"},
+                   {"without a posterior"},
+                   {"90 % intervals that hold the truth"},
+                   {"p"}};
   for (const RankRow& row : study.rows) {
     const double p = rank_p_value(row.ranks, rank_band(static_cast<int>(row.ranks.size())));
     table.rows.push_back({Sentence(title_of(row.arm)), Sentence(row.parameter),
                           Sentence(std::to_string(row.ranks.size())),
                           Sentence(std::to_string(row.unsettled)),
+                          Sentence(fmt::format("{:.1f} %", 100.0 * share_within(row.ranks))),
                           Sentence(fmt::format("{:.3f}", p))});
   }
   page.sections = {{"ranks", "Ranks", {}, {table}}};
