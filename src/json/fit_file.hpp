@@ -342,17 +342,25 @@ struct FitFile {
   };
 
   struct Marginal {
-    std::optional<double> mean, sd, r_hat, effective_draws;
-    RECOIL_FIELDS(mean, sd, r_hat, effective_draws)
+    std::optional<double> mean, sd, r_hat, effective_draws, effective_tail_draws;
+    RECOIL_FIELDS(mean, sd, r_hat, effective_draws, effective_tail_draws)
+  };
+
+  struct LeaveOneOut {
+    double elpd = 0.0, se = 0.0, p_loo = 0.0;
+    std::vector<std::optional<double>> elpd_of_points, pareto_k;
+    RECOIL_FIELDS(elpd, se, p_loo, elpd_of_points, pareto_k)
   };
 
   struct Posterior {
-    int steps = 0, walkers = 0;
+    int steps = 0;
+    std::size_t chains = 0;
     std::optional<double> acceptance;
     std::size_t draws = 0;
     std::optional<std::string> missing;
     Named<Marginal> parameters;
-    RECOIL_FIELDS(steps, walkers, acceptance, draws, missing, parameters)
+    OrReason<LeaveOneOut> loo;
+    RECOIL_FIELDS(steps, chains, acceptance, draws, missing, parameters, loo)
   };
 
   struct PaperPoint {

@@ -300,6 +300,13 @@ py::dict profiles_of(const Analysis& analysis) {
   return profiles;
 }
 
+/// The draws of the posterior as CSV, and ln likelihood of every point [points][draws].
+py::tuple posterior_of(const Analysis& analysis) {
+  const std::optional<PosteriorResult>& found = analysis.uncertainty.posterior;
+  return py::make_tuple(posterior_csv(analysis),
+                        found ? found->pointwise : std::vector<std::vector<double>>());
+}
+
 /// The pictures of a result by name.
 struct Pictures {
   std::vector<Figure> figures;
@@ -497,6 +504,7 @@ void bind_results(py::module_& module) {
           "pictures", [](const Analysis& a) { return pictures_of(fit_document(a)); },
           py::call_guard<Released>())
       .def("profiles", &profiles_of)
+      .def("posterior", &posterior_of)
       .def("model", [](const Analysis& a) { return model_of(a); })
       .def(
           "predict",

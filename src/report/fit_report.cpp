@@ -197,6 +197,7 @@ Section certainty_section(const Analysis& a) {
   for (Sentence& words : interval_sentences(a)) sentences.push_back(std::move(words));
   if (a.uncertainty.posterior) {
     sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
+    sentences.push_back(leave_one_out_words(a));
   }
   for (Sentence& words : budget_sentences(a)) sentences.push_back(std::move(words));
   sentences.push_back(moved_words(a));

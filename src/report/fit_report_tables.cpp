@@ -208,13 +208,14 @@ Table posterior_table(const Analysis& a) {
   const PosteriorResult& found = *a.uncertainty.posterior;
   table.caption = say("Posterior with flat priors between the bounds; {} intervals of equal tails",
                       level_of(a));
-  table.columns = {{"quantity"}, {"mean"}, {"sd"}, {"interval"}, {"R-hat"}, {"effective draws"}};
+  table.columns = {{"quantity"},        {"mean"},        {"sd"}, {"interval"}, {"R-hat"},
+                   {"effective draws"}, {"in the tails"}};
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const PosteriorMarginal& m = found.parameters[j];
     if (!a.fitted.model.slots[j].moves()) continue;
     table.rows.push_back({labelled(a, j), Number{m.mean}, Number{m.sd, significant(2)},
-                          interval_cell(m.interval), Number{m.r_hat, fixed(4)},
-                          Number{m.effective, fixed(0)}});
+                          interval_cell(m.interval), Number{m.check.r_hat, fixed(4)},
+                          Number{m.check.bulk, fixed(0)}, Number{m.check.tail, fixed(0)}});
   }
   for (std::size_t k = 0; k < found.capture.size(); ++k) {
     const PosteriorMarginal& m = found.capture[k];

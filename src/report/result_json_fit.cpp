@@ -412,20 +412,32 @@ std::optional<FitFile::Posterior> posterior_of(const Analysis& a) {
   if (!a.uncertainty.posterior) return std::nullopt;
   const PosteriorResult& found = *a.uncertainty.posterior;
   FitFile::Posterior out = {.steps = found.steps,
-                            .walkers = found.walkers,
+                            .chains = found.chains,
                             .acceptance = found.acceptance,
                             .draws = found.draws.size(),
                             .missing = {},
-                            .parameters = {}};
+                            .parameters = {},
+                            .loo = {}};
   if (!found.available()) out.missing = no_posterior_words(found);
+  out.loo.why = no_leave_one_out_words(found);
+  if (out.loo.why.empty()) {
+    const LeaveOneOut& loo = found.left_out;
+    out.loo.value = {
+        .elpd = loo.elpd, .se = loo.se, .p_loo = loo.p_loo, .elpd_of_points = {}, .pareto_k = {}};
+    for (const LeftOutPoint& point : loo.points) {
+      out.loo.value->elpd_of_points.push_back(point.elpd);
+      out.loo.value->pareto_k.push_back(point.pareto_k);
+    }
+  }
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const PosteriorMarginal& marginal = found.parameters[j];
     if (!a.fitted.model.slots[j].moves()) continue;
     out.parameters.push_back({a.fitted.model.slots[j].label(),
                               {.mean = marginal.mean,
                                .sd = marginal.sd,
-                               .r_hat = marginal.r_hat,
-                               .effective_draws = marginal.effective}});
+                               .r_hat = marginal.check.r_hat,
+                               .effective_draws = marginal.check.bulk,
+                               .effective_tail_draws = marginal.check.tail}});
   }
   return out;
 }

@@ -85,6 +85,11 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
 
 /// Why there is no posterior; empty where there is one.
 std::string no_posterior_words(const PosteriorResult& posterior);
+/// Why its points cannot be left out one by one; empty where they are.
+std::string no_leave_one_out_words(const PosteriorResult& posterior);
+/// How well the model predicts points that it has not seen, and which points that cannot be said
+/// of; empty without a posterior.
+Sentence leave_one_out_words(const Analysis& analysis);
 
 /// "V*(4.9 um)", with the dataset where there are several.
 Sentence capture_name(const Analysis& analysis, const CaptureEstimate& capture);

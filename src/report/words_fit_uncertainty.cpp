@@ -503,7 +503,7 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
 std::string no_posterior_words(const PosteriorResult& posterior) {
   if (posterior.available()) return {};
   switch (*posterior.missing) {
-    case NoPosterior::no_walkers:
+    case NoPosterior::no_start:
       return "no posterior: the model mostly has no answer near the estimate";
     case NoPosterior::not_settled:
       return fmt::format("no posterior: the chains have not converged after {} steps",
@@ -512,6 +512,45 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
       return "no posterior: the noise is unknown, and there are no more points than parameters";
   }
   return {};
+}
+
+std::string no_leave_one_out_words(const PosteriorResult& posterior) {
+  if (!posterior.available()) return no_posterior_words(posterior);
+  if (posterior.draws.empty()) return "no parameter moves";
+  if (!posterior.left_out.missing) return {};
+  switch (*posterior.left_out.missing) {
+    case NoLeaveOneOut::shared_errors:
+      return "points share an error, and one of them alone has no likelihood";
+    case NoLeaveOneOut::student:
+      return "the likelihood with Student's t is known but for a factor";
+  }
+  return {};
+}
+
+Sentence leave_one_out_words(const Analysis& a) {
+  const std::optional<PosteriorResult>& found = a.uncertainty.posterior;
+  if (!found || !found->available()) return {};
+  const std::string why = no_leave_one_out_words(*found);
+  if (!why.empty()) return say("Leaving out one point at a time: not possible, as {}.", why);
+  const LeaveOneOut& loo = found->left_out;
+  Sentence words = say(
+      "Leaving out one point at a time (PSIS-LOO): expected log predictive density {:.1f} {+/-} "
+      "{:.1f}, {:.1f} effective parameters. ",
+      loo.elpd, loo.se, loo.p_loo);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < loo.points.size(); ++i) {
+    if (!(loo.points[i].pareto_k > largest_pareto_k)) continue;
+    const Observation& point = a.fitted.data.points[i];
+    names.push_back(fmt::format("line {}{} (k = {:.2f})", point.line,
+                                a.datasets.size() > 1 ? " of " + a.datasets[point.dataset].id : "",
+                                loo.points[i].pareto_k));
+  }
+  if (names.empty()) return words + say("No point has a Pareto k above {:g}.", largest_pareto_k);
+  return words +
+         say("For {} this estimate is not reliable (Pareto k above {:g}): the posterior depends "
+             "strongly on {}.",
+             fmt::to_string(fmt::join(names, ", ")), largest_pareto_k,
+             std::string(names.size() == 1 ? "this point" : "each of these points"));
 }
 
 Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {

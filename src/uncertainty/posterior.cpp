@@ -1,14 +1,20 @@
 #include "uncertainty/posterior.hpp"
 
+#include <gsl/gsl_cdf.h>
+
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <numeric>
 
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
-#include "uncertainty/ensemble.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -26,16 +32,12 @@ class PosteriorCoordinates {
   }
   const std::vector<std::size_t>& moving() const { return moving_; }
   bool logarithmic(std::size_t j) const { return model_.slots[j].log_scale || flat_itself(j); }
-  /// Does its prior ask for a factor of itself, as it is flat and its coordinate the logarithm?
-  bool flat_itself(std::size_t j) const {
-    constexpr double clear_of_zero = 2.0;  // standard errors
-    return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
-           theta_[j] > clear_of_zero * error_[j];
-  }
   double to_z(std::size_t j, double value) const {
     return logarithmic(j) ? std::log(value) : value;
   }
-  /// ln d theta / d z.
+  /// d theta / d z.
+  double slope(std::size_t j, double value) const { return logarithmic(j) ? value : 1.0; }
+  /// ln d theta / d z of those with a prior that is flat in theta.
   double log_volume(std::span<const double> z) const {
     double sum = 0.0;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -56,6 +58,13 @@ class PosteriorCoordinates {
   }
 
  private:
+  /// Does its prior ask for a factor of itself, as it is flat and its coordinate the logarithm?
+  bool flat_itself(std::size_t j) const {
+    constexpr double clear_of_zero = 2.0;  // standard errors
+    return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
+           theta_[j] > clear_of_zero * error_[j];
+  }
+
   const ImpactModel& model_;
   const std::vector<double>& theta_;
   const std::vector<double>& error_;
@@ -67,296 +76,404 @@ bool scale_unknown(const FitResult& fitted) {
   return !fitted.data.sd_stated || fitted.noise_verdict == NoiseVerdict::exceeded;
 }
 
-/// ln posterior of one thread.
-class LogPosterior {
- public:
-  explicit LogPosterior(const FitResult& fitted)
-      : coordinates_(fitted), data_(fitted.data), scale_unknown_(scale_unknown(fitted)) {
-    data_.constants_weight = 1.0;
-    problem_ = impact_problem(fitted.model, data_);
-    residuals_.resize(problem_.residual_count);
-  }
-  LogPosterior(const LogPosterior&) = delete;
-  LogPosterior& operator=(const LogPosterior&) = delete;
-
-  double operator()(std::span<const double> z) {
-    if (!coordinates_.to_theta(z, theta_) || !problem_.evaluate(theta_, residuals_, {})) {
-      return -INFINITY;
-    }
-    double scatter = 0.0, rest = 0.0;
-    int rebounds = 0;
-    for (std::size_t i = 0; i < residuals_.size(); ++i) {
-      const double square = residuals_[i] * residuals_[i];
-      if (scale_unknown_ && i < data_.points.size() && !data_.points[i].censored) {
-        scatter += square;
-        ++rebounds;
-      } else {
-        rest += square;
-      }
-    }
-    return coordinates_.log_volume(z) - 0.5 * rest -
-           (scale_unknown_ ? 0.5 * rebounds * std::log(scatter) : 0.0);
-  }
-  const PosteriorCoordinates& coordinates() const { return coordinates_; }
-
- private:
-  PosteriorCoordinates coordinates_;
-  Observations data_;
-  bool scale_unknown_;
-  LeastSquaresProblem problem_;
-  std::vector<double> residuals_, theta_;
+/// A place of a chain.
+struct Place {
+  std::vector<double> z, theta, residuals;
+  double log_density = -INFINITY;  ///< in z
 };
 
-/// Walkers about the estimate, twice as wide as its errors; empty when too few places are possible.
-std::vector<std::vector<double>> scattered(const FitResult& fitted, LogPosterior& density,
-                                           std::size_t count, RandomStream& random) {
-  constexpr double wide = 2.0;
-  constexpr double without_error = 0.05;  // of the value, or of what its bounds allow
-  const PosteriorCoordinates& coordinates = density.coordinates();
-  std::vector<std::vector<double>> walkers;
-  for (std::size_t tries = 0; tries < 200 * count && walkers.size() < count; ++tries) {
-    std::vector<double> z;
-    for (const std::size_t j : coordinates.moving()) {
-      const ParameterSlot& slot = fitted.model.slots[j];
-      double value = fitted.theta[j];
-      double error = fitted.std_error[j];
-      if (!(error > 0.0)) {
-        error = without_error * (value > 0.0 ? value : std::max(slot.initial, 1e-3 * slot.upper));
+/// The posterior under one variance function, for one thread.
+class Posterior {
+ public:
+  explicit Posterior(const FitResult& fitted)
+      : coordinates(fitted),
+        scaled(scale_unknown(fitted)),
+        fitted_(fitted),
+        data_(fitted.data),
+        log_determinant_(SharedSettings(data_.points).log_determinant()) {
+    data_.constants_weight = 1.0;
+    problem_ = impact_problem(fitted.model, data_);
+    // ln of the densities at their peaks but for the scale. That of a mean is normal in e.
+    for (const Observation& point : data_.points) {
+      const double square = point.restitution * point.restitution;
+      double ln = 0.0;
+      if (point.peaks()) ln -= 0.5 * point.weights.peak.deviance;
+      if (!point.censored) {
+        ln -= 0.5 * std::log(2.0 * std::numbers::pi);
+        ln += point.peaks()
+                  ? -std::log(point.weights.mean_sd)
+                  : std::log(slope_in_restitution(weighted_residual(point, square), square));
       }
-      const bool logarithmic = coordinates.logarithmic(j);
-      if (logarithmic) value = std::max(value, error);  // on a bound at 0
-      const double step = logarithmic ? std::min(1.0, error / value) : error;
-      const double there = coordinates.to_z(j, value) + wide * step * random.normal();
-      // At a bound the walkers lie on its inner side.
-      z.push_back(logarithmic ? there : slot.lower + std::abs(there - slot.lower));
+      peaks_.push_back(ln);
     }
-    if (std::isfinite(density(z))) walkers.push_back(std::move(z));
   }
-  if (walkers.size() < count) walkers.clear();
-  return walkers;
-}
+  Posterior(const Posterior&) = delete;
+  Posterior& operator=(const Posterior&) = delete;
 
-struct EnsembleRun {
-  std::unique_ptr<LogPosterior> density;
-  std::unique_ptr<Ensemble> ensemble;
-  std::vector<std::vector<std::vector<double>>> kept;  // [walker][coordinate][step]
+  const PosteriorCoordinates coordinates;
+  const bool scaled;  ///< the scale of the noise is unknown
+
+  void evaluate(Place& place) {
+    place.log_density = -INFINITY;
+    place.residuals.resize(problem_.residual_count);
+    if (!coordinates.to_theta(place.z, place.theta) ||
+        !problem_.evaluate(place.theta, place.residuals, {})) {
+      return;
+    }
+    const auto [scatter, rebounds, rest] = sums(place.residuals);
+    place.log_density = coordinates.log_volume(place.z) - 0.5 * rest -
+                        (scaled ? 0.5 * rebounds * std::log(scatter) : 0.0);
+  }
+
+  /// The estimate, and the covariance of Gauss and Newton there: J'J, and what the bounds leave.
+  std::pair<Eigen::VectorXd, Eigen::MatrixXd> normal_about_estimate() {
+    const std::vector<std::size_t>& moving = coordinates.moving();
+    const std::size_t p = fitted_.theta.size();
+    const auto count = static_cast<Eigen::Index>(moving.size());
+    std::vector<double> residuals(problem_.residual_count);
+    std::vector<double> jacobian(problem_.residual_count * p);
+    Eigen::VectorXd centre(count);
+    Eigen::MatrixXd slopes =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(residuals.size()), count);
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(count);  // precision of the prior
+    const bool answered = problem_.evaluate(fitted_.theta, residuals, jacobian);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const std::size_t j = moving[static_cast<std::size_t>(k)];
+      const ParameterSlot& slot = fitted_.model.slots[j];
+      centre(k) = coordinates.to_z(j, fitted_.theta[j]);
+      for (Eigen::Index i = 0; answered && i < slopes.rows(); ++i) {
+        slopes(i, k) =
+            jacobian[static_cast<std::size_t>(i) * p + j] * coordinates.slope(j, fitted_.theta[j]);
+      }
+      // A flat prior has the variance width^2 / 12.
+      const double width =
+          coordinates.to_z(j, slot.upper) - coordinates.to_z(j, std::max(slot.lower, 0.0));
+      if (std::isfinite(width) && width > 0.0) own(k) = 12.0 / (width * width);
+    }
+    const auto [scatter, rebounds, rest] = sums(residuals);
+    const double variance = scaled ? scatter / std::max(1, fitted_.dof) : 1.0;
+    const Eigen::Index points = static_cast<Eigen::Index>(data_.points.size());
+    slopes.topRows(points) /= std::sqrt(variance);
+    Eigen::MatrixXd precision = slopes.transpose() * slopes;
+    precision.diagonal() += own;
+    return {centre, precision.inverse()};
+  }
+
+  /// A draw of the scale of the noise, given the parameters.
+  double draw_scale(const Place& place, RandomStream& random) const {
+    const auto [scatter, rebounds, rest] = sums(place.residuals);
+    return std::sqrt(scatter / gsl_cdf_chisq_Pinv(random.uniform(), rebounds));
+  }
+  /// ln likelihood of every point [points].
+  std::vector<double> pointwise(const Place& place, double scale) const {
+    std::vector<double> each = peaks_;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      const double s = scatters(i) ? scale : 1.0;
+      each[i] -= 0.5 * std::pow(place.residuals[i] / s, 2) + std::log(s);
+    }
+    return each;
+  }
+  /// What the errors that points share add to its sum.
+  double shared() const { return -0.5 * log_determinant_; }
+  /// ln prior density of theta, in ln theta where that is fitted.
+  double log_prior(const Place& place, double scale) const {
+    double ln = -std::log(scale);
+    for (const std::size_t j : coordinates.moving()) {
+      const ParameterSlot& slot = fitted_.model.slots[j];
+      if (slot.is_constant()) {
+        const std::size_t k = j - fitted_.model.first_constant();
+        const double deviation = place.residuals[data_.points.size() + k];
+        ln += std::log(fitted_.model.constants[k].deviation_slope(place.theta[j])) -
+              0.5 * (deviation * deviation + std::log(2.0 * std::numbers::pi));
+        if (slot.log_scale) ln += std::log(place.theta[j]);
+      } else {
+        ln -=
+            std::log(slot.log_scale ? std::log(slot.upper / slot.lower) : slot.upper - slot.lower);
+      }
+    }
+    return ln;
+  }
+
+ private:
+  struct Sums {
+    double scatter = 0.0;  ///< squares with an unknown scale
+    int rebounds = 0;      ///< how many
+    double rest = 0.0;
+  };
+  bool scatters(std::size_t i) const {
+    return scaled && i < data_.points.size() && !data_.points[i].censored;
+  }
+  Sums sums(std::span<const double> residuals) const {
+    Sums sums;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      (scatters(i) ? sums.scatter : sums.rest) += residuals[i] * residuals[i];
+      sums.rebounds += scatters(i) ? 1 : 0;
+    }
+    return sums;
+  }
+
+  const FitResult& fitted_;
+  Observations data_;
+  double log_determinant_;
+  LeastSquaresProblem problem_;
+  std::vector<double> peaks_;
+};
+
+/// Where chains go next: an ellipsoid in z.
+class Proposals {
+ public:
+  Proposals(Eigen::VectorXd centre, const Eigen::MatrixXd& covariance)
+      : centre_(std::move(centre)), factor_(covariance) {}
+  bool usable() const { return factor_.info() == Eigen::Success && centre_.allFinite(); }
+
+  /// A draw of Student's t about the centre, `wide` times as wide.
+  std::vector<double> anywhere(RandomStream& random, double wide = 1.0) const {
+    const double squares = gsl_cdf_chisq_Pinv(random.uniform(), freedom);
+    return away(centre_, wide * std::sqrt(freedom / squares), random);
+  }
+  /// ln density of that draw, but for a constant.
+  double log_density(const std::vector<double>& z) const {
+    const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
+    const double square = factor_.matrixL().solve(at - centre_).squaredNorm();
+    return -0.5 * (freedom + static_cast<double>(centre_.size())) * std::log1p(square / freedom);
+  }
+  std::vector<double> near(const std::vector<double>& z, RandomStream& random) const {
+    const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
+    // The best length for a normal density (Roberts, Gelman & Gilks 1997), or a third of it.
+    const double length = 2.38 / std::sqrt(static_cast<double>(centre_.size()));
+    return away(at, random.uniform() < 0.5 ? length : length / 3.0, random);
+  }
+
+ private:
+  static constexpr double freedom = 8.0;  // tails that the posterior hardly exceeds
+
+  std::vector<double> away(const Eigen::VectorXd& from, double length, RandomStream& random) const {
+    Eigen::VectorXd step(from.size());
+    for (double& x : step) x = length * random.normal();
+    const Eigen::VectorXd to = from + factor_.matrixL() * step;
+    return {to.begin(), to.end()};
+  }
+
+  Eigen::VectorXd centre_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+/// A Markov chain by Metropolis & Hastings.
+struct Chain {
+  std::unique_ptr<Posterior> density;
+  RandomStream random;
+  Place at;
+  std::vector<Place> kept;
+  int accepted = 0;
+
+  /// Begins somewhere around the estimate, twice as far away as the posterior reaches.
+  bool start(const Proposals& proposals) {
+    for (int tries = 0; tries < 1000 && !std::isfinite(at.log_density); ++tries) {
+      at.z = proposals.anywhere(random, 2.0);
+      density->evaluate(at);
+    }
+    return std::isfinite(at.log_density);
+  }
+  void step(const Proposals& proposals) {
+    Place next;
+    const bool anywhere = random.uniform() < 0.5;
+    const double chance = std::log(random.uniform());
+    next.z = anywhere ? proposals.anywhere(random) : proposals.near(at.z, random);
+    density->evaluate(next);
+    double gain = next.log_density - at.log_density;
+    if (anywhere) gain += proposals.log_density(at.z) - proposals.log_density(next.z);
+    if (!(chance < gain)) return;
+    ++accepted;
+    at = std::move(next);
+  }
 };
 
 /// The sampler's answer under one variance function of the noise.
 struct SampledFit {
   std::optional<NoPosterior> missing;
   int steps = 0;
-  std::size_t walkers = 0;
   double acceptance = 0.0;
-  std::vector<double> r_hat, effective;                  // [moving]
-  std::vector<std::vector<std::vector<double>>> chains;  // [moving][walkers of all][step]
+  std::vector<Chain> chains;
+  std::vector<ChainCheck> checks;  // [moving]
 };
 
-/// The chains of the kept draws as values of the parameters, and whether they have settled.
-bool read_chains(const std::vector<EnsembleRun>& runs, const PosteriorCoordinates& coordinates,
-                 const PosteriorOptions& options, SampledFit& sampled) {
-  const std::size_t p = coordinates.moving().size();
-  sampled.chains.assign(p, {});
-  sampled.r_hat.assign(p, 0.0);
-  sampled.effective.assign(p, 0.0);
-  bool settled = true;
-  for (std::size_t j = 0; j < p; ++j) {
-    auto& chains = sampled.chains[j];
-    for (const EnsembleRun& run : runs) {
-      for (const auto& walker : run.kept) chains.push_back(walker[j]);
-    }
-    // Of the values, which are what the draws are for: towards a bound at 0 the logarithms go on
-    // without end.
-    if (coordinates.logarithmic(coordinates.moving()[j])) {
-      for (std::vector<double>& chain : chains) {
-        for (double& value : chain) value = std::exp(value);
-      }
-    }
-    sampled.r_hat[j] = split_r_hat(chains);
-    sampled.effective[j] = effective_sample_size(chains);
-    settled = settled && sampled.r_hat[j] <= options.largest_r_hat &&
-              sampled.effective[j] >= options.least_effective;
+/// One value of every kept draw, [chain][draw].
+template <class Value>
+ChainDraws draws_of(std::size_t chains, std::size_t length, const Value& value) {
+  ChainDraws draws(chains);
+  for (std::size_t c = 0; c < chains; ++c) {
+    for (std::size_t i = 0; i < length; ++i) draws[c].push_back(value(c, i));
   }
-  return settled;
+  return draws;
 }
 
-/// @param first_stream of random numbers; every ensemble has its own
+bool settled(const ChainCheck& check, const PosteriorOptions& options) {
+  return check.r_hat < options.largest_r_hat && check.bulk >= options.least_effective &&
+         check.tail >= options.least_effective;
+}
+
+Proposals learned(const std::vector<Chain>& chains) {
+  const auto p = static_cast<Eigen::Index>(chains.front().at.z.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(p);
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
+  double count = 0.0;
+  const Eigen::VectorXd origin = Eigen::Map<const Eigen::VectorXd>(chains[0].at.z.data(), p);
+  for (const Chain& chain : chains) {
+    for (const Place& place : chain.kept) {
+      const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(place.z.data(), p) - origin;
+      sum += d;
+      squares += d * d.transpose();
+      ++count;
+    }
+  }
+  const Eigen::VectorXd mean = sum / count;
+  return {origin + mean, squares / count - mean * mean.transpose()};
+}
+
+/// @param first_stream of random numbers; every chain has its own
 SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
                       std::size_t first_stream) {
   SampledFit sampled;
-  const PosteriorCoordinates coordinates(fitted);
-  const std::size_t p = coordinates.moving().size();
-  const std::size_t walkers = std::max<std::size_t>(16, 4 * p);
-  std::vector<EnsembleRun> runs(static_cast<std::size_t>(options.ensembles));
-  parallel_over(runs.size(), options.threads, [&](std::size_t e) {
-    RandomStream random(options.seed, RandomPurpose::posterior, first_stream + e);
-    runs[e].density = std::make_unique<LogPosterior>(fitted);
-    auto start = scattered(fitted, *runs[e].density, walkers, random);
-    if (start.empty()) return;
-    LogPosterior& density = *runs[e].density;
-    runs[e].ensemble = std::make_unique<Ensemble>(
-        [&density](std::span<const double> z) { return density(z); }, std::move(start), random);
-    runs[e].kept.assign(walkers, std::vector<std::vector<double>>(p));
-  });
-  if (std::any_of(runs.begin(), runs.end(), [](const EnsembleRun& run) { return !run.ensemble; })) {
-    sampled.missing = NoPosterior::no_walkers;
+  for (std::size_t c = 0; c < options.chains; ++c) {
+    sampled.chains.push_back(
+        {std::make_unique<Posterior>(fitted),
+         RandomStream(options.seed, RandomPurpose::posterior, first_stream + c),
+         {},
+         {}});
+  }
+  const auto [centre, covariance] = sampled.chains.front().density->normal_about_estimate();
+  Proposals proposals(centre, covariance);
+  std::vector<char> started(options.chains, 0);
+  if (proposals.usable()) {
+    parallel_over(options.chains, options.threads,
+                  [&](std::size_t c) { started[c] = sampled.chains[c].start(proposals) ? 1 : 0; });
+  }
+  if (std::count(started.begin(), started.end(), 0) > 0) {
+    sampled.missing = NoPosterior::no_start;
     return sampled;
   }
-  for (int steps = options.fewest_steps;; steps *= 2) {
-    // What was kept so far becomes what is dropped of the longer run.
-    parallel_over(runs.size(), options.threads, [&](std::size_t e) {
-      EnsembleRun& run = runs[e];
-      const int dropped = steps == options.fewest_steps ? steps : 0;
-      for (int k = 0; k < dropped; ++k) run.ensemble->step();
-      for (auto& walker : run.kept) {
-        for (auto& values : walker) values.clear();
-      }
-      for (int k = 0; k < steps; ++k) {
-        run.ensemble->step();
-        for (std::size_t w = 0; w < walkers; ++w) {
-          for (std::size_t j = 0; j < p; ++j) {
-            run.kept[w][j].push_back(run.ensemble->walkers()[w][j]);
-          }
-        }
+  const int shortest = static_cast<int>(options.length);
+  // The first round only warms up.
+  bool warm = false;
+  for (sampled.steps = shortest;;) {
+    const int thin = sampled.steps / shortest;
+    parallel_over(options.chains, options.threads, [&](std::size_t c) {
+      Chain& chain = sampled.chains[c];
+      chain.kept.clear();
+      chain.accepted = 0;
+      for (int k = 0; k < sampled.steps; ++k) {
+        chain.step(proposals);
+        if ((k + 1) % thin == 0) chain.kept.push_back(chain.at);
       }
     });
-    sampled.steps = steps;
-    if (read_chains(runs, coordinates, options, sampled)) break;
-    if (2 * steps > options.most_steps) {
+    const std::vector<std::size_t>& moving = sampled.chains.front().density->coordinates.moving();
+    sampled.checks.assign(moving.size(), {});
+    parallel_over(moving.size(), options.threads, [&](std::size_t k) {
+      sampled.checks[k] =
+          check_chains(draws_of(options.chains, options.length, [&](std::size_t c, std::size_t i) {
+            return sampled.chains[c].kept[i].theta[moving[k]];
+          }));
+    });
+    const bool done = std::all_of(sampled.checks.begin(), sampled.checks.end(),
+                                  [&](const ChainCheck& c) { return settled(c, options); });
+    if (warm && done) break;
+    if (warm) sampled.steps *= 2;
+    warm = true;
+    if (sampled.steps > options.most_steps) {
       sampled.missing = NoPosterior::not_settled;
-      return sampled;
+      break;
     }
+    Proposals better = learned(sampled.chains);
+    if (better.usable()) proposals = std::move(better);
   }
-  sampled.walkers = walkers * runs.size();
-  for (const EnsembleRun& run : runs) {
-    sampled.acceptance += run.ensemble->acceptance() / static_cast<double>(runs.size());
+  for (const Chain& chain : sampled.chains) {
+    sampled.acceptance += chain.accepted / static_cast<double>(options.chains) / sampled.steps;
   }
   return sampled;
 }
 
-/// A value and how much of the posterior it stands for.
-struct WeightedDraw {
-  double value = 0.0;
-  double weight = 0.0;
-};
-
-void fill_marginal(std::vector<WeightedDraw> draws, double level, PosteriorMarginal& marginal) {
-  std::sort(draws.begin(), draws.end(),
-            [](const WeightedDraw& a, const WeightedDraw& b) { return a.value < b.value; });
-  double total = 0.0;
-  for (const WeightedDraw& draw : draws) total += draw.weight;
-  for (const WeightedDraw& draw : draws) marginal.mean += draw.value * draw.weight / total;
-  for (const WeightedDraw& draw : draws) {
-    marginal.sd += std::pow(draw.value - marginal.mean, 2) * draw.weight / total;
-  }
-  marginal.sd = std::sqrt(marginal.sd);
-  // The value below which the share p of the weight lies, each draw standing in the middle of its
-  // own.
-  const auto quantile = [&](double p) {
-    double below = 0.0;
-    for (std::size_t k = 0; k < draws.size(); ++k) {
-      const double middle = below + 0.5 * draws[k].weight;
-      if (middle >= p * total) {
-        if (k == 0) return draws[k].value;
-        const double before = below - 0.5 * draws[k - 1].weight;
-        const double part = (p * total - before) / (middle - before);
-        return draws[k - 1].value + part * (draws[k].value - draws[k - 1].value);
-      }
-      below += draws[k].weight;
-    }
-    return draws.back().value;
-  };
-  marginal.interval = {};
-  marginal.interval.lower = quantile(0.5 * (1.0 - level));
-  marginal.interval.upper = quantile(0.5 * (1.0 + level));
-}
-
-/// Constants that the fit holds: every draw of the parameters was made with the stated ones. Gives
-/// each draw constants of its own, from their errors, and moves it as the fit would move, to first
-/// order (a parameter above 0 by a factor). The constants come after the parameters.
+/// Constants that the fit holds: the draws of the parameters were made with the stated ones. Gives
+/// a draw constants of its own, from their errors, and moves it as the fit would move, to first
+/// order (a parameter above 0 by a factor).
 void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
-                    std::uint64_t seed, SampledFit& sampled) {
+                    RandomStream& random, std::vector<double>& draw) {
   const ImpactModel& model = fitted.model;
   const std::size_t count = fitted.constant_effects.size();
-  if (count == 0 || sampled.chains.empty()) return;
-  const std::size_t chains = sampled.chains.front().size();
-  const std::size_t steps = sampled.chains.front().front().size();
-  const std::vector<std::vector<double>> empty(chains, std::vector<double>(steps));
-  sampled.chains.resize(moving.size() + count, empty);
-  sampled.r_hat.resize(moving.size() + count, 1.0);
-  sampled.effective.resize(moving.size() + count, static_cast<double>(chains * steps));
   std::vector<double> z(count);
-  for (std::size_t c = 0; c < chains; ++c) {
-    RandomStream random(seed, RandomPurpose::constants, c);
-    for (std::size_t i = 0; i < steps; ++i) {
-      for (std::size_t k = 0; k < count; ++k) {
-        z[k] = random.normal();
-        const UncertainConstant& constant = model.constants[k];
-        sampled.chains[moving.size() + k][c][i] = constant.moved(constant.stated, z[k]);
+  for (std::size_t k = 0; k < count; ++k) {
+    z[k] = random.normal();
+    draw[model.first_constant() + k] = model.constants[k].moved(model.constants[k].stated, z[k]);
+  }
+  for (std::size_t j = 0; count > 0 && j < moving.size(); ++j) {
+    const ParameterSlot& slot = model.slots[moving[j]];
+    const double estimate = fitted.theta[moving[j]];
+    double by = 0.0;
+    for (std::size_t k = 0; k < count; ++k) by += z[k] * fitted.constant_effects[k][moving[j]];
+    double& value = draw[moving[j]];
+    value = slot.lower >= 0.0 && estimate > 0.0 ? value * std::exp(by / estimate) : value + by;
+    value = std::clamp(value, slot.lower, slot.upper);
+  }
+}
+
+/// Joint draws, each under one of the variance functions by its weight: the fractional parts of
+/// multiples of the golden ratio cover [0, 1) evenly, within every chain.
+void keep_draws(const std::vector<NoiseAlternative>& alternatives,
+                const std::vector<SampledFit>& sampled, const std::vector<std::size_t>& moving,
+                const PosteriorOptions& options, PosteriorResult& result) {
+  const std::vector<Observation>& points = alternatives.front().fitted.data.points;
+  const bool scaled = sampled.front().chains.front().density->scaled;
+  if (!result.left_out.missing) result.pointwise.resize(points.size());
+  for (std::size_t c = 0; c < options.chains; ++c) {
+    RandomStream constants(options.seed, RandomPurpose::constants, c);
+    RandomStream scales(options.seed, RandomPurpose::posterior, (std::uint64_t{1} << 32) + c);
+    for (std::size_t i = 0; i < options.length; ++i) {
+      double share = std::fmod((static_cast<double>(i) + 0.5) * std::numbers::phi, 1.0);
+      std::size_t k = 0;
+      while (k + 1 < sampled.size() && share >= alternatives[k].weight) {
+        share -= alternatives[k++].weight;
       }
-      for (std::size_t j = 0; j < moving.size(); ++j) {
-        const ParameterSlot& slot = model.slots[moving[j]];
-        const double estimate = fitted.theta[moving[j]];
-        double by = 0.0;
-        for (std::size_t k = 0; k < count; ++k) {
-          by += z[k] * fitted.constant_effects[k][moving[j]];
-        }
-        double& value = sampled.chains[j][c][i];
-        value = slot.lower >= 0.0 && estimate > 0.0 ? value * std::exp(by / estimate) : value + by;
-        value = std::clamp(value, slot.lower, slot.upper);
+      const Posterior& density = *sampled[k].chains[c].density;
+      const Place& place = sampled[k].chains[c].kept[i];
+      result.draws.push_back(place.theta);
+      draw_constants(alternatives[k].fitted, moving, constants, result.draws.back());
+      const double scale = scaled ? density.draw_scale(place, scales) : 1.0;
+      if (scaled) result.scale.push_back(scale);
+      const std::vector<double> each = density.pointwise(place, scale);
+      result.log_likelihood.push_back(std::accumulate(each.begin(), each.end(), density.shared()));
+      result.log_prior.push_back(density.log_prior(place, scale));
+      for (std::size_t n = 0; n < result.pointwise.size(); ++n) {
+        result.pointwise[n].push_back(each[n]);
       }
     }
   }
 }
 
-/// Marginals of the parameters from the draws under all variance functions.
-void fill_parameters(const std::vector<std::size_t>& moving, const std::vector<SampledFit>& sampled,
-                     const std::vector<double>& weights, double level, PosteriorResult& result) {
-  for (std::size_t j = 0; j < moving.size(); ++j) {
-    PosteriorMarginal& marginal = result.parameters[moving[j]];
-    std::vector<WeightedDraw> draws;
-    double variance = 0.0;  // of a mean, in variances of a draw
-    for (std::size_t k = 0; k < sampled.size(); ++k) {
-      const auto& chains = sampled[k].chains[j];
-      const auto count = static_cast<double>(chains.size() * chains.front().size());
-      for (const std::vector<double>& chain : chains) {
-        for (const double value : chain) draws.push_back({value, weights[k] / count});
-      }
-      marginal.r_hat = std::max(marginal.r_hat, sampled[k].r_hat[j]);
-      variance += weights[k] * weights[k] / sampled[k].effective[j];
-    }
-    marginal.effective = 1.0 / variance;
-    fill_marginal(std::move(draws), level, marginal);
-  }
+void leave_one_out(int threads, PosteriorResult& result) {
+  LeaveOneOut& out = result.left_out;
+  if (out.missing) return;
+  out.points.resize(result.pointwise.size());
+  std::vector<double> elpd(out.points.size()), in_sample(out.points.size());
+  parallel_over(out.points.size(), threads, [&](std::size_t i) {
+    const std::vector<double>& ln = result.pointwise[i];
+    out.points[i] = leave_out(ln);
+    elpd[i] = out.points[i].elpd;
+    const double most = *std::max_element(ln.begin(), ln.end());
+    double sum = 0.0;
+    for (const double value : ln) sum += std::exp(value - most);
+    in_sample[i] = most + std::log(sum / static_cast<double>(ln.size()));
+  });
+  out.elpd = std::accumulate(elpd.begin(), elpd.end(), 0.0);
+  out.p_loo = std::accumulate(in_sample.begin(), in_sample.end(), 0.0) - out.elpd;
+  out.se = std::sqrt(static_cast<double>(elpd.size())) * standard_deviation(elpd);
 }
 
-/// Joint draws: of every variance function its share, every so many of all that were kept, walker
-/// by walker.
-void keep_draws(const std::vector<std::size_t>& moving, std::span<const double> theta,
-                const std::vector<SampledFit>& sampled, const std::vector<double>& weights,
-                std::size_t wanted, PosteriorResult& result) {
-  double before = 0.0;
-  for (std::size_t k = 0; k < sampled.size(); ++k) {
-    const double after = before + weights[k];
-    const auto share = [&](double part) {
-      return static_cast<std::size_t>(
-          std::llround(std::min(part, 1.0) * static_cast<double>(wanted)));
-    };
-    const std::size_t kept =
-        k + 1 == sampled.size() ? wanted - share(before) : share(after) - share(before);
-    before = after;
-    const auto& chains = sampled[k].chains;
-    const auto steps = chains.front().front().size();
-    const std::size_t total = chains.front().size() * steps;
-    for (std::size_t i = 0; i < std::min(kept, total); ++i) {
-      const std::size_t at = i * total / std::min(kept, total);
-      std::vector<double> draw(theta.begin(), theta.end());
-      for (std::size_t j = 0; j < moving.size(); ++j) {
-        draw[moving[j]] = chains[j][at / steps][at % steps];
-      }
-      result.draws.push_back(std::move(draw));
-    }
-  }
+void fill_marginal(std::vector<double> draws, double level, PosteriorMarginal& marginal) {
+  marginal.mean = mean(draws);
+  marginal.sd = standard_deviation(draws);
+  std::sort(draws.begin(), draws.end());
+  marginal.interval = {};
+  marginal.interval.lower = sorted_quantile(draws, 0.5 * (1.0 - level));
+  marginal.interval.upper = sorted_quantile(draws, 0.5 * (1.0 + level));
 }
 
 void fill_capture(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
@@ -373,9 +490,9 @@ void fill_capture(const FitResult& fitted, const std::vector<CaptureEstimate>& c
   });
   for (std::size_t q = 0; q < queries.size(); ++q) {
     PosteriorMarginal& marginal = result.capture.emplace_back();
-    std::vector<WeightedDraw> values;
+    std::vector<double> values;
     for (const std::vector<double>& draw : result.capture_draws) {
-      if (std::isfinite(draw[q])) values.push_back({draw[q], 1.0});
+      if (std::isfinite(draw[q])) values.push_back(draw[q]);
     }
     if (static_cast<double>(values.size()) < share_for_band * static_cast<double>(kept)) {
       marginal.interval = no_interval(NoInterval::never_rebounds);
@@ -396,35 +513,45 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
   for (PosteriorMarginal& marginal : result.parameters) {
     marginal.interval = no_interval(NoInterval::fixed);
   }
-  std::vector<std::size_t> moving = PosteriorCoordinates(fitted).moving();
+  const std::vector<std::size_t> moving = PosteriorCoordinates(fitted).moving();
   if (moving.empty()) return result;
   if (scale_unknown(fitted) && fitted.dof <= 0) {
     result.missing = NoPosterior::few_points;
     return result;
   }
+  result.chains = options.chains;
   std::vector<SampledFit> sampled;
-  std::vector<double> weights;
   for (const NoiseAlternative& alternative : alternatives) {
-    sampled.push_back(sample_one(alternative.fitted, options,
-                                 sampled.size() * static_cast<std::size_t>(options.ensembles)));
-    weights.push_back(alternative.weight);
+    sampled.push_back(sample_one(alternative.fitted, options, sampled.size() * options.chains));
     const SampledFit& own = sampled.back();
     result.steps = std::max(result.steps, own.steps);
-    result.walkers += static_cast<int>(own.walkers);
     result.acceptance += alternative.weight * own.acceptance;
-    for (std::size_t j = 0; own.missing && j < own.r_hat.size(); ++j) {
-      result.parameters[moving[j]].r_hat = own.r_hat[j];
-      result.parameters[moving[j]].effective = own.effective[j];
-    }
     result.missing = own.missing;
-    if (result.missing) return result;
-    draw_constants(alternative.fitted, moving, options.seed, sampled.back());
+    if (!result.missing) continue;
+    for (std::size_t j = 0; j < own.checks.size(); ++j) {
+      result.parameters[moving[j]].check = own.checks[j];
+    }
+    return result;
   }
-  for (std::size_t k = 0; k < fitted.constant_effects.size(); ++k) {
-    moving.push_back(fitted.model.first_constant() + k);
+  result.length = options.length;
+  if (fitted.data.shares_errors()) {
+    result.left_out.missing = NoLeaveOneOut::shared_errors;
+  } else if (fitted.data.noise.student) {
+    result.left_out.missing = NoLeaveOneOut::student;
   }
-  fill_parameters(moving, sampled, weights, options.level, result);
-  keep_draws(moving, fitted.theta, sampled, weights, options.kept, result);
+  keep_draws(alternatives, sampled, moving, options, result);
+  leave_one_out(options.threads, result);
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const bool held = j >= fitted.model.first_constant() && !fitted.constant_effects.empty();
+    if (!fitted.model.slots[j].moves() && !held) continue;
+    const ChainDraws draws = draws_of(
+        options.chains, options.length,
+        [&](std::size_t c, std::size_t i) { return result.draws[c * options.length + i][j]; });
+    std::vector<double> all;
+    for (const auto& chain : draws) all.insert(all.end(), chain.begin(), chain.end());
+    result.parameters[j].check = check_chains(draws);
+    fill_marginal(std::move(all), options.level, result.parameters[j]);
+  }
   fill_capture(fitted, capture, options, result);
   return result;
 }

@@ -13,13 +13,12 @@ class KeptRows;
 struct PosteriorOptions {
   double level = 0.95;
   std::uint64_t seed = 20260101;
-  int threads = 0;                ///< 0: all cores. No digit depends on it.
-  int ensembles = 4;              ///< independent of one another
-  int fewest_steps = 1000;        ///< kept of every walker, after as many that are dropped
-  int most_steps = 8000;          ///< beyond it the sampler gives up
-  double largest_r_hat = 1.01;    ///< of every quantity
-  double least_effective = 1000;  ///< draws of every quantity
-  std::size_t kept = 2000;        ///< joint draws that are handed on
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
+  std::size_t chains = 4;
+  std::size_t length = 1000;     ///< draws that are kept of every chain
+  int most_steps = 64000;        ///< of a chain in one round, beyond which the sampler gives up
+  double largest_r_hat = 1.01;   ///< of every quantity
+  double least_effective = 400;  ///< draws of every quantity, in bulk and tails
 };
 
 struct UncertaintyOptions {

@@ -241,7 +241,7 @@ TEST(Manual, EveryKeyOfFitJsonIsDescribed) {
   const page::Sandbox sandbox;
   sandbox.write("counted/points.csv", impacts_that_differ);
   sandbox.write("counted/datapackage.json", its_package);
-  sandbox.write("counted.toml", "dataset = \"counted\"\n");
+  sandbox.write("counted.toml", "dataset = \"counted\"\n[uncertainty]\nposterior = true\n");
   sandbox.write("dry/points.csv", impacts_that_differ);
   sandbox.write("dry/datapackage.json",
                 std::regex_replace(its_package, std::regex("\"provenance\""),

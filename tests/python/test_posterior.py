@@ -4,6 +4,7 @@ results only what that page says is held fixed."""
 
 import csv
 import json
+import resource
 
 import emcee
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from conftest import SOURCE
 from numpy.polynomial import chebyshev
 from scipy.special import log_ndtr
-from scipy.stats import gaussian_kde, truncnorm
+from scipy.stats import gaussian_kde, norm, rankdata, truncnorm
 
 
 def energy_left(alpha, beta, gamma, step=0.01):
@@ -240,3 +241,74 @@ def test_posterior_is_that_of_emcee(place, command, name, noise):
     # The joint draws hang together as theirs do: arctanh of a correlation has the error 1/sqrt(N).
     ours_together, theirs_together = (np.arctanh(np.corrcoef(d.T)[0, 1]) for d in (ours, draws))
     assert abs(ours_together - theirs_together) < 4 / np.sqrt(1000)
+
+
+def folded_r_hat(chains):
+    """R-hat as Vehtari et al. (2021) write it: chains [chain, draw] in halves, ranks r of all S draws
+    as normal scores Phi^-1((r - 3/8) / (S + 1/4)), of the draws and of |draw - median|."""
+    halves = chains.reshape(2 * len(chains), -1)
+
+    def r_hat(x):
+        z = norm.ppf((rankdata(x).reshape(x.shape) - 0.375) / (x.size + 0.25))
+        n = x.shape[1]
+        within = z.var(axis=1, ddof=1).mean()
+        return np.sqrt((within * (n - 1) / n + z.mean(axis=1).var(ddof=1)) / within)
+
+    return max(r_hat(halves), r_hat(np.abs(halves - np.median(halves))))
+
+
+@pytest.mark.parametrize("materials", ["true", '"adjust"'])
+@pytest.mark.parametrize("name", sorted(p.stem for p in (SOURCE / "fits").glob("*.toml")))
+def test_every_shipped_fit_settles_in_ten_seconds(place, command, name, materials):
+    text = (SOURCE / "fits" / f"{name}.toml").read_text().replace("../datasets", "datasets")
+    assert "[uncertainty]" in text
+    text = text.replace("[uncertainty]", f"[uncertainty]\nposterior = true\nmaterials = {materials}")
+    (place / "fit.toml").write_text(text)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    done = command("fit", "fit.toml", "--replicates", "0", "--out", "out")
+    assert done.status == 0, done.err
+    assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before < 10
+    fit = json.loads((place / "out" / "fit.json").read_text())
+    posterior = fit["posterior"]
+    assert posterior["missing"] is None
+    rows = list(csv.DictReader(open(place / "out" / "posterior.csv", newline="")))
+    shape = posterior["chains"], posterior["draws"] // posterior["chains"]
+    assert [(int(row["chain"]), int(row["draw"])) for row in rows] == [
+        (c + 1, i + 1) for c in range(shape[0]) for i in range(shape[1])]
+    for parameter, found in posterior["parameters"].items():
+        assert found["r_hat"] < 1.01
+        assert min(found["effective_draws"], found["effective_tail_draws"]) >= 400
+        draws = np.array([float(row[parameter]) for row in rows])
+        # The two draws beside the median are equally far from it: nine digits decide which is first.
+        assert found["r_hat"] == pytest.approx(folded_r_hat(draws.reshape(shape)), abs=5e-5)
+        assert found["mean"] == pytest.approx(draws.mean(), rel=1e-6)
+    # ln likelihood of all points together: of the sum of their terms, elpd lies below the best.
+    loo = posterior["loo"]
+    assert len(loo["pareto_k"]) == len(fit["residuals"])
+    best = max(float(row["log_likelihood"]) for row in rows)
+    assert loo["elpd"] == pytest.approx(sum(loo["elpd_of_points"]))
+    assert 0 < loo["p_loo"] and loo["elpd"] < best
+
+
+def test_draws_are_what_arviz_reads(here):
+    import recoil
+
+    result = recoil.fit("mine", uncertainty={"posterior": True}, replicates=0)
+    draws = result.draws()
+    chains, length = draws["posterior"]["C_A"].shape
+    assert chains * length == result.facts.posterior.draws
+    assert draws["posterior"]["C_A"].mean() == pytest.approx(
+        result.facts.posterior.parameters.C_A.mean)
+    pointwise = draws["log_likelihood"]["restitution"]
+    assert pointwise.shape == (chains, length, len(draws["observed_data"]["restitution"]))
+    stats = draws["sample_stats"]
+    assert np.allclose(pointwise.sum(axis=2), stats["log_likelihood"])
+    assert np.allclose(stats["lp"], stats["log_likelihood"] + stats["log_prior"])
+    # Importance sampling without smoothing: good to a few hundredths where k is small.
+    loo = result.facts.posterior.loo
+    for k, (elpd, shape) in enumerate(zip(loo.elpd_of_points, loo.pareto_k, strict=True)):
+        if shape is not None and shape < 0.3:
+            raw = -np.log(np.mean(np.exp(-pointwise[:, :, k])))
+            assert elpd == pytest.approx(raw, abs=0.05)
+    with pytest.raises(recoil.InputError, match="not sampled"):
+        recoil.fit("mine", replicates=0).draws()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import html
 import io
 import math
@@ -236,6 +237,32 @@ class FitResult(_WithPictures):
             rows[name] = {"value": one.value, "std_error": one.stderr, "lower": lower,
                           "upper": upper, "unit": one.unit}
         return pandas.DataFrame.from_dict(rows, orient="index")
+
+    def draws(self) -> dict[str, dict[str, Array]]:
+        """The draws of the posterior as ``arviz.from_dict(**result.draws())`` reads them, arrays
+        [chain, draw]: ``posterior`` (parameters and capture velocities, SI), ``sample_stats``
+        (``lp``, ln posterior; ``log_likelihood``, ``log_prior``), ``log_likelihood`` (of every
+        point, [chain, draw, point], where one point alone has it), ``observed_data``."""
+        import numpy
+
+        if not self.facts.posterior:
+            refuse("the posterior was not sampled", "fit with uncertainty={'posterior': True}")
+        text, pointwise = self._analysis.posterior()
+        names, *rows = csv.reader(io.StringIO(text))
+        if not rows:
+            refuse(self.facts.posterior.missing, "there are no draws")
+        numbers = numpy.array([[float(cell or "nan") for cell in row] for row in rows])
+        shape = (int(numbers[-1, 0]), int(numbers[-1, 1]))
+        values = {name: numbers[:, k].reshape(shape) for k, name in enumerate(names)}
+        stats = {name: values.pop(name) for name in ("log_likelihood", "log_prior")}
+        stats["lp"] = stats["log_likelihood"] + stats["log_prior"]
+        del values["chain"], values["draw"]
+        found = {"posterior": values, "sample_stats": stats,
+                 "observed_data": {"restitution": _numbers([r.restitution for r in self.residuals])}}
+        if pointwise:
+            found["log_likelihood"] = {
+                "restitution": numpy.array(pointwise).T.reshape(*shape, len(pointwise))}
+        return found
 
     def save(self, folder: PathLike) -> Path:
         """Writes ``folder``/fit.json, and returns its path."""

@@ -38,11 +38,9 @@ CoverageOptions coverage_options(const CoverageRun& options, const FitSpec& spec
   coverage.uncertainty.threads = options.run.threads;
   // Of one interval among many: its ends need no more digits than a count of intervals sees.
   coverage.uncertainty.posterior = options.posterior;
-  coverage.uncertainty.sampling.ensembles = 2;
-  coverage.uncertainty.sampling.fewest_steps = 500;
+  coverage.uncertainty.sampling.length = 250;
   coverage.uncertainty.sampling.largest_r_hat = 1.03;
-  coverage.uncertainty.sampling.least_effective = 400;
-  coverage.uncertainty.sampling.kept = 500;
+  coverage.uncertainty.sampling.least_effective = 200;
   return coverage;
 }
 

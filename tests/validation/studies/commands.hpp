@@ -42,6 +42,7 @@ void add_coverage_summary(CLI::App& program);
 void add_hidden_effects(CLI::App& program, const std::string& words);
 void add_pairing(CLI::App& program, const std::string& words);
 void add_pairing_events(CLI::App& program);
+void add_ranks(CLI::App& program, const std::string& words);
 void add_reconstruct(CLI::App& program);
 
 /// recoil_study merge: a study whose shards are there.

@@ -44,6 +44,7 @@ int run_study_program(const std::vector<std::string>& words) {
   add_hidden_effects(program, plain);
   add_pairing(program, plain);
   add_pairing_events(program);
+  add_ranks(program, plain);
   add_reconstruct(program);
   add_study_merge(program);
   try {

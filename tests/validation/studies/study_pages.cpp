@@ -14,6 +14,7 @@
 #include "validation/studies/hidden_effects_page.hpp"
 #include "validation/studies/markdown.hpp"
 #include "validation/studies/pairing_study.hpp"
+#include "validation/studies/rank_study.hpp"
 #include "validation/studies/study_stamp.hpp"
 
 namespace recoil {
@@ -39,6 +40,9 @@ void render_study(const fs::path& json) {
                grid ? std::optional(coverage_picture(study)) : std::nullopt);
   } else if (name == "pairing") {
     write_page(json, pairing_page(read_study<PairingStudy>(json, "study of the pairing", "rows")));
+  } else if (name == "posterior-ranks") {
+    const RankStudy study = read_study<RankStudy>(json, "study of the posterior", "rows");
+    write_page(json, rank_page(study), rank_picture(study));
   } else if (name == "hidden-effects") {
     const hidden::StudyTally tally =
         read_study<hidden::StudyTally>(json, "study of hidden effects", "bars");

@@ -1,0 +1,106 @@
+// What chains say of themselves, against closed forms and the authors' own programs.
+#include "uncertainty/chains.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/random.hpp"
+
+namespace recoil {
+namespace {
+
+/// The generator of Numerical Recipes, which R repeats exactly in doubles:
+/// s <- (1664525 * s + 1013904223) %% 4294967296; (s + 0.5) / 4294967296
+std::vector<double> uniforms(std::uint64_t s, int n) {
+  std::vector<double> u;
+  for (int i = 0; i < n; ++i) {
+    s = (1664525 * s + 1013904223) % 4294967296;
+    u.push_back((static_cast<double>(s) + 0.5) / 4294967296.0);
+  }
+  return u;
+}
+
+/// Four chains x_i = phi x_(i-1) + u_i - 1/2, with shift * c added to chain c = 1 to 4.
+ChainDraws chains_with(double phi, double shift) {
+  ChainDraws chains;
+  for (int c = 1; c <= 4; ++c) {
+    std::vector<double>& chain = chains.emplace_back();
+    double x = 0.0;
+    for (const double u : uniforms(static_cast<std::uint64_t>(c), 200)) {
+      x = phi * x + u - 0.5;
+      chain.push_back(x + shift * c);
+    }
+  }
+  return chains;
+}
+
+void expect_check(const ChainDraws& chains, double r_hat, double bulk, double tail) {
+  const ChainCheck check = check_chains(chains);
+  EXPECT_NEAR(check.r_hat, r_hat, 1e-10);
+  EXPECT_NEAR(check.bulk, bulk, 1e-7);
+  EXPECT_NEAR(check.tail, tail, 1e-7);
+}
+
+TEST(Chains, AreThoseOfThePackagePosterior) {
+  // rhat(x), ess_bulk(x), ess_tail(x) of the R package posterior 1.4.0 (Buerkner, Gabry, Kay &
+  // Vehtari) for these chains as columns of x.
+  expect_check(chains_with(0.6, 0.0), 1.007196516490, 222.4165222947, 424.2353731750);
+  expect_check(chains_with(0.9, 0.05), 1.056267178625, 62.3051730538, 123.3939703655);
+  expect_check(chains_with(-0.5, 0.0), 0.996670374586, 2322.4719895936, 805.7505722058);
+  expect_check(chains_with(0.0, 0.3), 1.565009129242, 7.2215708064, 32.2548207500);
+  // Chains of one mean, one of them three times as wide: only the folded R-hat sees it.
+  ChainDraws wide = chains_with(0.3, 0.0);
+  for (double& x : wide.front()) x *= 3.0;
+  expect_check(wide, 1.133843961695, 458.1684683895, 42.1260364991);
+}
+
+TEST(Chains, EffectiveSizeIsThatOfAnAutoregression) {
+  // x_{t+1} = phi x_t + sqrt(1 - phi^2) z: autocorrelation phi^t, so that n steps are worth
+  // n (1 - phi) / (1 + phi) independent draws.
+  for (const double phi : {0.0, 0.5, 0.9}) {
+    ChainDraws chains;
+    for (std::uint64_t c = 0; c < 8; ++c) {
+      RandomStream random(5, RandomPurpose::posterior, c);
+      double x = random.normal();
+      std::vector<double>& chain = chains.emplace_back();
+      for (int i = 0; i < 5000; ++i) {
+        chain.push_back(x);
+        x = phi * x + std::sqrt(1.0 - phi * phi) * random.normal();
+      }
+    }
+    const ChainCheck check = check_chains(chains);
+    EXPECT_NEAR(check.bulk / (8.0 * 5000.0 * (1.0 - phi) / (1.0 + phi)), 1.0, 0.1) << phi;
+    EXPECT_NEAR(check.r_hat, 1.0, 0.005) << phi;
+  }
+}
+
+TEST(Chains, ThatStandStillApartHaveNoEnd) {
+  EXPECT_EQ(check_chains({{1.0, 1.0, 1.0, 1.0}, {2.0, 2.0, 2.0, 2.0}}).r_hat, INFINITY);
+}
+
+TEST(LeftOut, IsThatOfThePackageLoo) {
+  // psis(-ll, r_eff = 1) and ln(sum(weights * exp(ll))) of the R package loo 2.5.1 (Vehtari, Gabry,
+  // Magnusson, Yao, Buerkner, Paananen & Gelman) for ll = k ln(u) - 1: weights u^-k have a Pareto
+  // tail of shape k.
+  const double expected[][3] = {{0.2, 0.291596241127, -1.221913420593},
+                                {0.7, 0.712835365097, -2.112270337469},
+                                {1.1, 1.049084809757, -3.478926182931}};
+  for (const auto& [k, shape, elpd] : expected) {
+    std::vector<double> ln;
+    for (const double u : uniforms(9, 1000)) ln.push_back(k * std::log(u) - 1.0);
+    const LeftOutPoint point = leave_out(ln);
+    EXPECT_NEAR(point.pareto_k, shape, 1e-9);
+    EXPECT_NEAR(point.elpd, elpd, 1e-9);
+  }
+}
+
+TEST(LeftOut, OfAPointThatSaysNothingChangesNothing) {
+  const LeftOutPoint point = leave_out(std::vector<double>(1000, -2.0));
+  EXPECT_DOUBLE_EQ(point.elpd, -2.0);
+  EXPECT_EQ(point.pareto_k, -INFINITY);
+}
+
+}  // namespace
+}  // namespace recoil
