@@ -196,16 +196,28 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
+  double growth = 1.0;  // of the scale since the fit to the original
+  std::vector<double> from(start.begin(), start.end());
   std::vector<VarianceCandidate> candidates;
   for (const VarianceFunction function :
        {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture,
         VarianceFunction::steep}) {
     Observations own = data;
     own.noise.variance = function;
-    ReweightedFit result = reweight_with(model, std::move(own), start, options);
+    const auto known = std::find_if(
+        data.noise.candidates.begin(), data.noise.candidates.end(),
+        [&](const VarianceCandidate& candidate) { return candidate.function == function; });
+    const bool again = options.replicate && known != data.noise.candidates.end();
+    if (again) own.noise.scale = growth * known->scale;
+    ReweightedFit result = reweight_with(model, std::move(own), from, options);
     if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
+    }
+    if (again) {
+      from = result.run.theta;
+      data.noise.event_spread = result.data.noise.event_spread;
+      growth = result.data.noise.scale / known->scale;
     }
     const double criterion = restricted_criterion(model, result);
     candidates.push_back({function, result.data.noise.scale, criterion});
