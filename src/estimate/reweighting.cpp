@@ -98,8 +98,10 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
                   .scale();
       // Data without noise would let the scale shrink for ever.
-      result.at_rest = noise_scale * scale < least_noise;
+      const double rounding = result.data.noise.rounding_sd;
+      result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
       if (result.at_rest) break;
+      scale = std::max(scale, std::min(1.0, rounding / noise_scale));
     }
     std::vector<double> steps = relative_steps(result.run, theta);
     result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
