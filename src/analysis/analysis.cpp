@@ -88,9 +88,17 @@ FitInputs load_inputs(const std::filesystem::path& fit_file) {
 
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis = analyse_fit(std::move(inputs), options);
-  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets,
-                                            uncertainty_options(analysis.spec, options));
+  assess(analysis, uncertainty_options(analysis.spec, options));
   return analysis;
+}
+
+void assess(Analysis& a, const UncertaintyOptions& options) {
+  a.uncertainty = assess_uncertainty(a.fitted, a.datasets, options);
+  const int replicates = options.replicates_auto ? 1 : options.replicates;
+  const int datasets = own_design_datasets(a.spec, a.fitted, replicates);
+  if (datasets == 0) return;
+  a.own_design = own_design_coverage(a.spec, a.fitted, a.datasets, a.uncertainty.intervals,
+                                     a.uncertainty.capture, options, datasets);
 }
 
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coverage/coverage.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/fit_spec.hpp"
@@ -27,6 +28,7 @@ struct Analysis {
   FitResult fitted;
   std::vector<Validity> validity;  ///< where the model holds, the worst point of each dataset
   UncertaintyResult uncertainty;
+  std::vector<OwnCoverage> own_design;           ///< empty where it was not simulated
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
   std::vector<LawFit> laws;     ///< the fit under its own law and others; may be empty
@@ -64,6 +66,9 @@ Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
 /// The pipeline up to the fit: `uncertainty` stays empty.
 /// @throws InputError, ComputationError as `analyse`
 Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options = {});
+
+/// `uncertainty` and `own_design` of an analysis that has its fit.
+void assess(Analysis& analysis, const UncertaintyOptions& options);
 
 /// Intervals, bootstrap, capture velocities, two points against all, identifiability, posterior,
 /// budgets and curves of a fit.

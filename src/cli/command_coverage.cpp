@@ -77,8 +77,8 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
       options.uncertainty.replicates, options.uncertainty.seed, result.failed,
       result.refits_failed);
   text +=
-      "| parameter | truth | called identifiable | interval | contains the truth | where "
-      "identifiable "
+      "| parameter | truth | called well determined | interval | contains the truth | where "
+      "well determined "
       "| median width |\n|---|---|---|---|---|---|---|\n";
   for (const CoverageRow& row : result.rows) {
     for (const CoverageCell& cell : row.cells) {

@@ -54,8 +54,10 @@ void run_fit(const FitFlags& flags) {
     return;
   }
   assess.kept = kept;
-  analysis.uncertainty = resumable(
-      *kept, [&] { return assess_uncertainty(analysis.fitted, analysis.datasets, assess); });
+  resumable(*kept, [&] {
+    recoil::assess(analysis, assess);
+    return true;
+  });
   const std::string result = fit_json(analysis);
   const std::string printed =
       flags.json ? result : fit_text(analysis, importance_of(flags.verbose), output_columns());

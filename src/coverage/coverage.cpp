@@ -9,6 +9,7 @@
 #include "core/progress.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "coverage/coverage_truth.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -246,6 +247,56 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     });
   }
   return count_coverage(spec, truth, options, trials);
+}
+
+int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates) {
+  if (!fitted.data.noise.known) return 0;
+  if (spec.uncertainty.own_design) return *spec.uncertainty.own_design;
+  if (replicates == 0 || fitted.noise_verdict == NoiseVerdict::exceeded) return 0;
+  constexpr int usual = 200;
+  constexpr double most_seconds = 10.0;
+  // Of one core, per point of a data set; measured, see docs/speed.md.
+  const bool mixtures = !fitted.model.chain.empty() || averages_over_sizes(fitted.model);
+  double seconds = fitted.data.weights_depend_on_fit() ? 2.5e-3 : 5e-4;
+  if (fitted.data.noise.event_spread > 0.0) seconds = 5e-3;
+  if (mixtures || fitted.model.adhesion != AdhesionLaw::ring) seconds *= 10.0;
+  const double cost = usual * seconds * static_cast<double>(fitted.data.points.size());
+  return cost < most_seconds ? usual : 0;
+}
+
+std::vector<OwnCoverage> own_design_coverage(const FitSpec& spec, const FitResult& fitted,
+                                             const std::vector<Dataset>& data,
+                                             const std::vector<IntervalSet>& sets,
+                                             const std::vector<CaptureEstimate>& captures,
+                                             const UncertaintyOptions& options, int datasets) {
+  CoverageOptions own;
+  own.datasets = datasets;
+  own.uncertainty.replicates = 0;
+  own.uncertainty.level = options.level;
+  own.uncertainty.seed = options.seed;
+  own.uncertainty.threads = options.threads;
+  const CoverageResult counted =
+      measure_coverage(spec, coverage_truth(fitted, data, options.seed), own);
+  std::vector<OwnCoverage> rows;
+  auto next = counted.rows.begin();
+  const auto take = [&](bool quoted, std::string_view method) {
+    const CoverageRow& row = *next++;
+    const auto cell = std::find_if(row.cells.begin(), row.cells.end(),
+                                   [&](const CoverageCell& one) { return one.interval == method; });
+    if (quoted && cell->offered > 0) {
+      rows.push_back({row.parameter, std::string(method), cell->offered, cell->held});
+    }
+  };
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    if (!fitted.model.slots[j].free) continue;
+    const bool profile = sets[j][IntervalKind::profile].available();
+    take(recommended_interval(sets[j]).available(),
+         name_of(profile ? IntervalKind::profile : IntervalKind::wald));
+  }
+  for (const CaptureEstimate& capture : captures) {
+    take(capture.found && capture.interval.available(), name_of(CaptureIntervalKind::delta));
+  }
+  return rows;
 }
 
 }  // namespace recoil

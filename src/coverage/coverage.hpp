@@ -12,6 +12,8 @@
 #include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
+#include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/interval.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
@@ -120,5 +122,31 @@ std::string digits_of(const CoverageTruth& truth);
 /// parameter contains the truth. Deterministic in (seed, number of data sets).
 CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
                                 const CoverageOptions& options);
+
+/// How often the interval of one quantity contains the truth in data sets like that of the fit.
+struct OwnCoverage {
+  std::string quantity;  ///< slot label, or "V*(d)" of a capture velocity
+  std::string method;    ///< the kind of interval
+  int datasets = 0;      ///< simulated ones that have such an interval
+  int held = 0;          ///< of those, how many intervals contain the truth
+
+  double share() const { return static_cast<double>(held) / datasets; }
+};
+
+/// How many data sets `own_design_coverage` simulates: those that the fit file asks for; by default
+/// 200 where `replicates` are asked for, the model is not rejected by the points, and the cost by
+/// the number of points and of fits that each data set takes is less than 10 s of one core. No
+/// clock decides.
+int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates);
+
+/// Simulates the estimate `datasets` times by `coverage_truth`, with the fit's own points, noise
+/// and captures, and counts the intervals that are quoted. Where that is one of the bootstrap the
+/// interval without replicates stands for it: profile, or Wald without one; delta of V*.
+/// @param sets [slots], and `captures`: of the fit
+std::vector<OwnCoverage> own_design_coverage(const FitSpec& spec, const FitResult& fitted,
+                                             const std::vector<Dataset>& data,
+                                             const std::vector<IntervalSet>& sets,
+                                             const std::vector<CaptureEstimate>& captures,
+                                             const UncertaintyOptions& options, int datasets);
 
 }  // namespace recoil

@@ -173,6 +173,11 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
                              std::uint64_t seed, const MakeImpacts& make_impacts) {
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
   if (!fitted.usable) throw ComputationError("no truth to simulate: " + fitted.failure);
+  return coverage_truth(fitted, datasets, seed, make_impacts);
+}
+
+CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                             std::uint64_t seed, const MakeImpacts& make_impacts) {
   const TrueImpacts impacts = make_impacts(fitted.model);
   CoverageTruth truth;
   truth.origin = TruthOrigin::estimate;

@@ -33,6 +33,10 @@ using MakeImpacts = std::function<TrueImpacts(const ImpactModel& model)>;
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed, const MakeImpacts& make_impacts = impacts_of);
 
+/// The same of a fit that is known.
+CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                             std::uint64_t seed, const MakeImpacts& make_impacts = impacts_of);
+
 /// V* of every size of every dataset under theta, in the order of UncertaintyResult::capture.
 std::vector<CoverageTruth::Capture> true_captures(const TrueImpacts& impacts,
                                                   std::span<const double> theta,

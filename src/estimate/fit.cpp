@@ -85,13 +85,16 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       result.noise_verdict == NoiseVerdict::exceeded) {
     result.noise_scale = misfit.scale();
   }
+  const double least = std::max(result.data.noise.scale, result.data.noise.rounding_sd);
+  const bool scatters = least * result.noise_scale > least_noise;
   if (result.noise_verdict == NoiseVerdict::estimated) {
+    result.noise_scale = std::max(
+        result.noise_scale, std::min(1.0, result.data.noise.rounding_sd / result.data.noise.scale));
     // What the points say of the constants they do not say of their noise.
     result.dof -= static_cast<int>(std::lround(misfit.learned));
   }
   NoiseModel& noise = result.data.noise;
-  noise.known =
-      result.data.sd_stated || (result.dof > 0 && noise.scale * result.noise_scale > least_noise);
+  noise.known = result.data.sd_stated || (result.dof > 0 && scatters);
   if (!noise.known) {
     result.noise_scale = 1.0;
     result.noise_verdict = NoiseVerdict::unchecked;

@@ -21,6 +21,7 @@ namespace {
 constexpr std::uintmax_t largest_file = 1024 * 1024;  // [bytes]
 constexpr int fewest_replicates = 19;
 constexpr int most_replicates = 1000000;
+constexpr int fewest_own_designs = 20;
 
 // Larger than this an error is no error of the quantity but another quantity.
 constexpr double largest_relative_sd = 0.5;
@@ -463,6 +464,16 @@ class FitReader : private TomlReader {
     }
     if (const toml::node* node = table.get("posterior")) {
       spec.posterior = boolean(*node, "posterior");
+    }
+    if (const toml::node* node = table.get("own_design")) {
+      const std::int64_t count = node->is_boolean() ? (boolean(*node, "own_design") ? 200 : 0)
+                                                    : integer(*node, "own_design");
+      if (count != 0 && (count < fewest_own_designs || count > most_replicates)) {
+        fail(*node, fmt::format("own_design = {}", count),
+             fmt::format("a share needs {} to {} data sets", fewest_own_designs, most_replicates),
+             "true simulates 200, false none");
+      }
+      spec.own_design = static_cast<int>(count);
     }
     if (const toml::node* node = table.get("materials")) {
       const bool adjusts = node->is_string() && node->as_string()->get() == "adjust";

@@ -109,6 +109,9 @@ struct UncertaintySpec {
   double level = 0.95;  ///< of every interval, in (0, 1)
   std::uint64_t seed = 20260101;
   bool posterior = false;  ///< sample the posterior, too
+  /// Simulated data sets of `own_design_coverage`, 0: none; by default as many as
+  /// `own_design_datasets` has where they are cheap.
+  std::optional<int> own_design;
   Materials materials = Materials::propagated;
 };
 

@@ -171,7 +171,7 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
 std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& problem,
                                                     std::span<const double> start,
                                                     const std::vector<bool>& fixed,
-                                                    bool to_the_last_digit) {
+                                                    const LeastSquaresOptions& options) {
   std::vector<std::size_t> moving;
   LeastSquaresResult result;
   result.theta.assign(start.begin(), start.end());
@@ -189,9 +189,8 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
   const GaussNewton method(problem, moving);
   const auto n = static_cast<double>(problem.residual_count);
   const double freedom = std::max(1.0, n - static_cast<double>(moving.size()));
-  constexpr double close_enough = 3e-7;  // of a standard error
   const auto is_close = [&](double error) {
-    return error * error <= close_enough * close_enough * result.sum_of_squares / freedom;
+    return std::pow(error / options.close_enough, 2) <= result.sum_of_squares / freedom;
   };
   std::optional<GaussNewton::Step> step = method.step_from(result);
   std::optional<StepHistory> history;
@@ -201,7 +200,7 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
   while (step && count < most_steps) {
     done = method.moves(result, step->d) <= all_digits;
     if (done) break;
-    if (!to_the_last_digit && is_close(ratio * step->errors)) {
+    if (!options.finish && is_close(ratio * step->errors)) {
       done = method.take_last(result, step->d);
       break;
     }

@@ -18,14 +18,14 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
 
 /// A minimum that lies near `start`, by the steps d = -(J'J)^-1 J'r of Gauss and Newton, combined
 /// as below. It ends where the last step, which is taken without an evaluation (the residuals
-/// follow it linearly), leaves less than about 3e-7 of any parameter's standard error; with
-/// `to_the_last_digit` where `finish_by_gauss_newton` ends.
+/// follow it linearly), leaves less than `options.close_enough` of any parameter's standard error;
+/// with `options.finish` where `finish_by_gauss_newton` ends.
 /// @return nothing where the steps do not shrink to a half each, where one leaves the bounds, where
 /// the sum of squares grows or J is singular: then the way is too long for it
 std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& problem,
                                                     std::span<const double> start,
                                                     const std::vector<bool>& fixed,
-                                                    bool to_the_last_digit);
+                                                    const LeastSquaresOptions& options);
 
 /// Takes a minimum that a descent found to the last digit. The descent stops where the sum of
 /// squares does, which is flat there and knows half of the digits; the steps d = -(J'J)^-1 J'r of

@@ -326,7 +326,7 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
   LeastSquaresResult result;
   bool finished = false;
   if (options.strategies.front() == Strategy::gauss_newton) {
-    if (auto found = gauss_newton_from(problem, start, fixed, options.finish)) {
+    if (auto found = gauss_newton_from(problem, start, fixed, options)) {
       result = std::move(*found);
       result.end = DescentEnd::minimum;
       result.message = "Gauss-Newton converged";

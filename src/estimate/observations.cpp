@@ -208,12 +208,35 @@ bool Observations::weights_depend_on_fit() const {
          });
 }
 
+namespace {
+
+/// See `NoiseModel::rounding_sd`; of the coarsest dataset. Quotients of rounded velocities are not
+/// multiples of anything.
+double rounding_sd_of(const std::vector<Dataset>& datasets) {
+  double coarsest = 0.0;
+  for (const Dataset& dataset : datasets) {
+    for (double step = 0.1; step > 0.5e-6; step /= 10.0) {
+      const auto off = [step](const ImpactPoint& p) {
+        const double steps = p.restitution / step;
+        return std::abs(steps - std::round(steps)) > 1e-6;
+      };
+      if (std::any_of(dataset.points.begin(), dataset.points.end(), off)) continue;
+      coarsest = std::max(coarsest, step);
+      break;
+    }
+  }
+  return coarsest / std::sqrt(12.0);
+}
+
+}  // namespace
+
 Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
                     const Location& variance_place) {
   Observations data;
   data.spec = spec;
   int missing = 0;
   int stated = 0;
+  data.noise.rounding_sd = rounding_sd_of(datasets);
   if (spec.student) data.noise.student = student_noise(spec.student_dof);
   std::size_t count = 0;
   for (const Dataset& dataset : datasets) count += dataset.points.size();

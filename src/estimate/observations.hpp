@@ -25,6 +25,9 @@ struct NoiseModel {
   VarianceFunction variance = VarianceFunction::stated;
   double scale = 0.0;  ///< s of the function, for a single impact [1]; 0 when stated
   std::vector<VarianceCandidate> candidates;  ///< all that were tried, when it was chosen
+  /// Of the rounding of the readings of e, q / sqrt(12) where all are multiples of q = 0.1, 0.01
+  /// ... (as far as 1e-6): no estimated sd is below it [1]; 0: not rounded
+  double rounding_sd = 0.0;
   double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0
                               ///< where no point has both rebounds and captures
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal

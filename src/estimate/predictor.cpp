@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
@@ -37,6 +39,25 @@ void add_stated_sizes(const ImpactModel& model, std::vector<Acting>& acting) {
     return one.mechanism->info.place > sizes->info.place;
   };
   acting.insert(std::find_if(acting.begin(), acting.end(), later), {&*sizes, no_slot});
+}
+
+std::vector<std::size_t> first_alike(const std::vector<PointConditions>& points) {
+  const auto key = [&](std::size_t i) {
+    return std::tie(points[i].dataset, points[i].diameter, points[i].velocity);
+  };
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return key(a) < key(b) || (key(a) == key(b) && a < b);
+  });
+  std::vector<std::size_t> alike(points.size());
+  bool repeated = false;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && key(order[k - 1]) == key(order[k]);
+    alike[order[k]] = same ? alike[order[k - 1]] : order[k];
+    repeated = repeated || same;
+  }
+  return repeated ? alike : std::vector<std::size_t>{};
 }
 
 }  // namespace
@@ -72,6 +93,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       range_per_f0_[i] = groups.range;
     }
   });
+
+  constexpr std::size_t few = 8 * points_of_block;  // beyond it sorting costs more than impacts do
+  if (points_.size() <= few) alike_ = first_alike(points_);
 
   std::vector<Acting> acting;
   std::size_t parameter = 0;
@@ -132,9 +156,25 @@ long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
   long handed_over = 0;
   for (std::size_t done = 0; done < answers.size();) {
     const std::size_t count = std::min(points_of_block, answers.size() - done);
-    for (std::size_t k = 0; k < count; ++k) groups[k] = groups_at(first + done + k);
+    const std::size_t from = first + done;
+    // Whoever has one alike in this block takes the answer from there.
+    const auto is_own = [&](std::size_t k) {
+      return alike_.empty() || alike_[from + k] < from || alike_[from + k] == from + k;
+    };
+    std::size_t own = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_own(k)) groups[own++] = groups_at(from + k);
+    }
     handed_over +=
-        model_.simulator()(std::span(groups).first(count), options, answers.subspan(done, count));
+        model_.simulator()(std::span(groups).first(own), options, answers.subspan(done, own));
+    if (own < count) {
+      for (std::size_t k = count; k-- > 0;) {
+        if (is_own(k)) answers[done + k] = answers[done + --own];
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        if (!is_own(k)) answers[done + k] = answers[done + alike_[from + k] - from];
+      }
+    }
     done += count;
   }
   return handed_over;

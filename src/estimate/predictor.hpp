@@ -78,6 +78,9 @@ class PointPredictor {
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
+  /// Of every point the first under the same conditions, which answers for it (itself: none); empty
+  /// where no two are alike.
+  std::vector<std::size_t> alike_;
   std::vector<double> beta_per_f0_;          // beta is proportional to f0,
   std::vector<double> range_per_f0_;         // and so is Maugis's lambda
   std::vector<double> C_H_, C_A_;            // per dataset, under the last theta, as all below

@@ -1,6 +1,5 @@
 #include "estimate/residual.hpp"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_erf.h>
 
 #include <algorithm>
@@ -13,11 +12,35 @@
 namespace recoil {
 namespace {
 
-/// ln Phi(-z), without cancellation on either side.
-double log_captured(double z) {
-  gsl_errors_are_values();
-  return z < 0.0 ? std::log1p(-gsl_cdf_ugaussian_P(z))
-                 : gsl_sf_log_erfc(z / std::numbers::sqrt2) - std::numbers::ln2;
+/// A standard normal number x: ln P and the density over P, for P of x > z and of x < z.
+struct NormalTails {
+  double log_above, log_below;
+  double hazard_above, hazard_below;
+};
+
+/// @param logarithms whether they are asked for; else they are 0
+NormalTails normal_tails(double z, bool logarithms) {
+  const double distance = std::abs(z);
+  NormalTails t{};
+  constexpr double far = 25.0;  // std::erfc underflows at 38
+  if (distance > far) {
+    gsl_errors_are_values();
+    t.hazard_above = gsl_sf_hazard(distance);
+    if (logarithms) {
+      t.log_above = gsl_sf_log_erfc(distance / std::numbers::sqrt2) - std::numbers::ln2;
+    }
+  } else {
+    const double above = 0.5 * std::erfc(distance / std::numbers::sqrt2);
+    const double density =
+        std::exp(-0.5 * z * z) * 0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2;
+    t.hazard_above = density / above;
+    t.hazard_below = density / (1.0 - above);
+    if (logarithms) {
+      t.log_above = std::log(above);
+      t.log_below = std::log1p(-above);
+    }
+  }
+  return z < 0.0 ? NormalTails{t.log_below, t.log_above, t.hazard_below, t.hazard_above} : t;
 }
 
 /// How the captures among the impacts of a point are spread: independent from impact to impact, and
@@ -39,41 +62,45 @@ CaptureSpread capture_spread(const Observation& point) {
 
 /// All impacts were captured, or none.
 WeightedResidual tobit_residual(const Observation& point, double m) {
-  gsl_errors_are_values();
   CaptureSpread spread = capture_spread(point);
   if (point.captured == 0) spread.scale = -spread.scale;
   const double n = spread.weight * point.events;
-  const double z = (m + point.weights.shift) / spread.scale;
-  const double deviance = -2.0 * n * log_captured(z);
+  const NormalTails tails = normal_tails((m + point.weights.shift) / spread.scale, true);
+  const double deviance = -2.0 * n * tails.log_above;
   if (deviance < 1e-280) return {0.0, 0.0};
   const double value = std::sqrt(deviance);
-  const double hazard = gsl_sf_hazard(z);  // phi(z) / Phi(-z)
-  return {value, n * hazard / (value * spread.scale)};
+  return {value, n * tails.hazard_above / (value * spread.scale)};
 }
 
 struct Deviance {
   double value;
   double slope;
+  double curvature;  // without the second derivative of the survivors' mean
 };
 
-/// D of a point whose impacts differ, and dD/dm.
-Deviance event_deviance_and_slope(const Observation& point, double m) {
-  gsl_errors_are_values();
+/// D of a point whose impacts differ, and its derivatives in m.
+/// @param slope_only the value is not asked for
+Deviance event_deviance(const Observation& point, double m, bool slope_only) {
   const double x = m + point.weights.shift;
-  Deviance d{0.0, 0.0};
+  Deviance d{0.0, 0.0, 0.0};
   if (!point.censored) {
     const RootMoments root = root_of_positive_normal(x / point.weights.scatter);
     const double unit = std::sqrt(point.weights.scatter);
     const double r = (point.restitution - unit * root.mean) / point.weights.mean_sd;
-    d = {r * r, -2.0 * r * root.slope / (unit * point.weights.mean_sd)};
+    const double r_slope = -root.slope / (unit * point.weights.mean_sd);
+    d = {r * r, 2.0 * r * r_slope, 2.0 * r_slope * r_slope};
   }
   if (!point.counted) return d;
   const CaptureSpread spread = capture_spread(point);
   const double z = x / spread.scale;
-  d.value += -2.0 * spread.weight *
-             (point.captured * log_captured(z) + point.rebounds() * log_captured(-z));
-  d.slope += 2.0 * spread.weight / spread.scale *
-             (point.captured * gsl_sf_hazard(z) - point.rebounds() * gsl_sf_hazard(-z));
+  const NormalTails tails = normal_tails(z, !slope_only);
+  const double captured = spread.weight * point.captured;
+  const double rebounds = spread.weight * point.rebounds();
+  d.value -= 2.0 * (captured * tails.log_above + rebounds * tails.log_below);
+  d.slope += 2.0 / spread.scale * (captured * tails.hazard_above - rebounds * tails.hazard_below);
+  d.curvature += 2.0 / (spread.scale * spread.scale) *
+                 (captured * tails.hazard_above * (tails.hazard_above - z) +
+                  rebounds * tails.hazard_below * (tails.hazard_below + z));
   return d;
 }
 
@@ -87,7 +114,7 @@ WeightedResidual event_residual(const Observation& point, double m) {
     const double skew = peak.third / (3.0 * peak.curvature);
     return {-unit * away * (1.0 + 0.5 * skew * away), -unit * (1.0 + skew * away)};
   }
-  const Deviance d = event_deviance_and_slope(point, m);
+  const Deviance d = event_deviance(point, m, false);
   const double value = std::copysign(std::sqrt(std::max(0.0, d.value - peak.deviance)), -away);
   return {value, d.slope / (2.0 * value)};
 }
@@ -122,7 +149,7 @@ WeightedResidual weighted_residual(const Observation& point, double m,
 }
 
 double event_deviance(const Observation& point, double m) {
-  return event_deviance_and_slope(point, m).value;
+  return event_deviance(point, m, false).value;
 }
 
 void locate_peak(Observation& point) {
@@ -131,37 +158,30 @@ void locate_peak(Observation& point) {
       10.0 * (point.weights.scatter + point.weights.input_sd + point.weights.mean_sd);
   double low = -point.weights.shift - reach;
   double high = point.restitution * point.restitution - point.weights.shift + reach;
-  const auto slope = [&](double m) { return event_deviance_and_slope(point, m).slope; };
-  // Regula falsi with the Illinois rule, and halving where that is slow; by hand, since it runs for
-  // every point in every round of every replicate.
-  double slope_low = slope(low);
-  double slope_high = slope(high);
+  DeviancePeak& peak = point.weights.peak;
+  // Newton from the peak of the round before, then secants, and halving where these are slow; by
+  // hand, since it runs for every point in every round of every replicate.
   constexpr int most_steps = 200;
   const double close_enough = 1e-13 * reach;
-  double middle = 0.5 * (low + high);
+  if (!(peak.at > low && peak.at < high)) peak.at = 0.5 * (low + high);
+  double before = 0.0;
+  double slope_before = 0.0;
   for (int i = 0; i < most_steps && high - low > close_enough; ++i) {
-    const double guess = high - slope_high * (high - low) / (slope_high - slope_low);
+    const Deviance d = event_deviance(point, peak.at, true);
+    if (d.slope == 0.0) break;
+    (d.slope < 0.0 ? low : high) = peak.at;
+    const double bend = i == 0 ? d.curvature : (d.slope - slope_before) / (peak.at - before);
+    const double guess = peak.at - d.slope / bend;
+    before = peak.at;
+    slope_before = d.slope;
     const bool halve = i % 8 == 7 || !(guess > low && guess < high);
-    middle = halve ? 0.5 * (low + high) : guess;
-    const double at = slope(middle);
-    if (at == 0.0) break;
-    if (at < 0.0) {
-      if (middle - low < close_enough) break;
-      low = middle;
-      slope_low = at;
-      slope_high *= 0.5;
-    } else {
-      if (high - middle < close_enough) break;
-      high = middle;
-      slope_high = at;
-      slope_low *= 0.5;
-    }
+    peak.at = halve ? 0.5 * (low + high) : guess;
+    if (std::abs(peak.at - before) < close_enough) break;
   }
-  DeviancePeak& peak = point.weights.peak;
-  peak.at = middle;
   peak.deviance = event_deviance(point, peak.at);
   const double h = 1e-3 * std::min(point.weights.scatter,
                                    std::max(point.weights.mean_sd, 1e-3 * point.weights.scatter));
+  const auto slope = [&](double m) { return event_deviance(point, m, true).slope; };
   const double more = slope(peak.at + h);
   const double less = slope(peak.at - h);
   peak.curvature = (more - less) / (2.0 * h);

@@ -98,8 +98,10 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
                   .scale();
       // Data without noise would let the scale shrink for ever.
-      result.at_rest = noise_scale * scale < least_noise;
+      const double rounding = result.data.noise.rounding_sd;
+      result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
       if (result.at_rest) break;
+      scale = std::max(scale, std::min(1.0, rounding / noise_scale));
     }
     std::vector<double> steps = relative_steps(result.run, theta);
     result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
@@ -196,16 +198,28 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
+  double growth = 1.0;  // of the scale since the fit to the original
+  std::vector<double> from(start.begin(), start.end());
   std::vector<VarianceCandidate> candidates;
   for (const VarianceFunction function :
        {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture,
         VarianceFunction::steep}) {
     Observations own = data;
     own.noise.variance = function;
-    ReweightedFit result = reweight_with(model, std::move(own), start, options);
+    const auto known = std::find_if(
+        data.noise.candidates.begin(), data.noise.candidates.end(),
+        [&](const VarianceCandidate& candidate) { return candidate.function == function; });
+    const bool again = options.replicate && known != data.noise.candidates.end();
+    if (again) own.noise.scale = growth * known->scale;
+    ReweightedFit result = reweight_with(model, std::move(own), from, options);
     if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
+    }
+    if (again) {
+      from = result.run.theta;
+      data.noise.event_spread = result.data.noise.event_spread;
+      growth = result.data.noise.scale / known->scale;
     }
     const double criterion = restricted_criterion(model, result);
     candidates.push_back({function, result.data.noise.scale, criterion});

@@ -22,6 +22,9 @@ struct ReweightingOptions {
   LeastSquaresOptions minimiser;
   double parameters = 1e-3;  ///< rounds end when no parameter moves by more, in standard errors,
   double scale = 1e-4;       ///< and the estimated scale by no more, relative
+  /// The data are a replicate of a fit with these `candidates`: every variance function begins with
+  /// its scale there and where the function before it ended.
+  bool replicate = false;
 };
 
 /// Fits the parameters from `start` (near the answer: a fit with rough weights, or the estimate of

@@ -146,8 +146,9 @@ class Renewal {
   void set_errors(Observation& point, double m, const NextLocal& local) const {
     if (!data_.sd_stated) {
       point.weights.sd =
-          function_sd(data_.noise.variance, data_.noise.scale, m, point.weights.proximity,
-                      point.censored ? point.events : point.rebounds());
+          std::max(data_.noise.rounding_sd,
+                   function_sd(data_.noise.variance, data_.noise.scale, m, point.weights.proximity,
+                               point.censored ? point.events : point.rebounds()));
     }
     double variance = 0.0;
     point.weights.input_bias = 0.0;

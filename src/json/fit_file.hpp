@@ -434,6 +434,17 @@ struct FitFile {
                   weighted_residual, leverage)
   };
 
+  struct OwnDesign {
+    struct Coverage {
+      std::string quantity, method;
+      double share = 0.0;
+      int datasets = 0;
+      RECOIL_FIELDS(quantity, method, share, datasets)
+    };
+    std::vector<Coverage> coverage;
+    RECOIL_FIELDS(coverage)
+  };
+
   int format_version = recoil::format_version;
   std::string recoil_version;
   Source fit;
@@ -456,6 +467,7 @@ struct FitFile {
   Identifiable identifiability;
   std::vector<ValidityEntry> validity;
   Bootstrap bootstrap;
+  OrAbsent<OwnDesign> own_design;
   std::optional<Posterior> posterior;
   std::vector<Compared> comparison;
   OrReason<TwoPoint> two_point;  ///< of the first dataset
@@ -469,8 +481,8 @@ struct FitFile {
   RECOIL_FIELDS(format_version, recoil_version, fit, provenance_sentence, dataset, datasets,
                 restitution_summary, velocity_dependence, series_differ, loss_laws, options, model,
                 parameters, constants, covariance, correlation, derived, solver, goodness, noise,
-                identifiability, validity, bootstrap, posterior, comparison, two_point, full,
-                two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
+                identifiability, validity, bootstrap, own_design, posterior, comparison, two_point,
+                full, two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
 };
 
 /// The interval of a parameter that is to be quoted; nullopt where there is none.

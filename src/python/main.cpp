@@ -38,6 +38,7 @@
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
 #include "report/pairing_report.hpp"
+#include "report/posterior_report.hpp"
 #include "report/prediction_report.hpp"
 #include "report/result_json.hpp"
 

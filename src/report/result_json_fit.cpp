@@ -671,6 +671,13 @@ FitFile fit_file(const Analysis& a) {
     entry.incident_velocity = check.velocity;
   }
   out.bootstrap = bootstrap_of(a);
+  if (!a.own_design.empty()) {
+    FitFile::OwnDesign own;
+    for (const OwnCoverage& row : a.own_design) {
+      own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
+    }
+    out.own_design = std::move(own);
+  }
   out.posterior = posterior_of(a);
   set_two_point(out, a);
   for (const StartSummary& start : f.starts) {

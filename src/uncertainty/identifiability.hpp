@@ -38,7 +38,7 @@ struct NamesOf<Hindrance> {
       "uncertain_error", "undecided_noise",      "wide_spread"};
 };
 
-/// Standard error over the scale of a parameter that counts as identifiable, at most.
+/// Standard error over the scale of a parameter that counts as well determined, at most.
 inline constexpr double widest_error = 0.1;
 
 struct ParameterIdentifiability {
@@ -71,18 +71,18 @@ struct Identifiability {
   bool assessed() const { return !parameter.empty(); }
 };
 
-/// A parameter counts as identifiable when its recommended interval exists and its standard error
+/// A parameter counts as well determined when its recommended interval exists and its standard error
 /// is below `widest_error` of the parameter's scale: the larger of its value and of what alone
 /// would make up the whole loss 1 - e^2 at the point that it moves most. That scale hardly depends
 /// on the luck of an estimate. Its value alone would, and so would asking whether the interval is
 /// clear of zero: both pick the data sets in which the parameter came out large, or in which the
 /// interval contains the truth more often than promised (reports/coverage-grid-*.md). A parameter
-/// so small that its interval begins at zero can therefore be identifiable; it is then an upper
+/// so small that its interval begins at zero can therefore be well determined; it is then an upper
 /// limit.
 ///
 /// Where the noise is estimated, so is the error, and a lucky one must not make a parameter
-/// identifiable: it is the upper 95 % limit of the error (chi-squared) that has to be below the
-/// limit. So a parameter whose actual error is above it is called identifiable in one of twenty
+/// well determined: it is the upper 95 % limit of the error (chi-squared) that has to be below the
+/// limit. So a parameter whose actual error is above it is called well determined in one of twenty
 /// data sets at most; how often it is stands in the tables of the coverage study. Which data sets
 /// are called so still depends on their noise, and the interval's level is that over all data sets.
 ///

@@ -26,8 +26,6 @@ class Profile {
       : fitted_(fitted), data_(fitted.data), slot_(slot) {
     problem_ = impact_problem(fitted.model, data_);
     problem_.fixed[slot] = true;
-    options_.finish = false;
-    options_.function_tolerance = 1e-10;
     least_ = fitted.objective + event_spread_offset(fitted.data);
   }
 
@@ -56,7 +54,7 @@ class Profile {
   Observations data_;  ///< with the spread that belongs to the last refit
   LeastSquaresProblem problem_;
   std::size_t slot_;
-  LeastSquaresOptions options_;
+  const LeastSquaresOptions options_ = refit_options();
   double least_ = 0.0;
 };
 

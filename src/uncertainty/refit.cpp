@@ -20,8 +20,10 @@ LeastSquaresOptions refit_options() {
 ReweightingOptions refit_reweighting_options() {
   ReweightingOptions options;
   options.minimiser = refit_options();
+  options.minimiser.close_enough = 0.02;
   options.parameters = 0.02;
   options.scale = 0.01;
+  options.replicate = true;
   return options;
 }
 

@@ -9,7 +9,10 @@
 #include "core/error.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
+#include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/profile.hpp"
 #include "uncertainty/replicate_errors.hpp"
 #include "validation/studies/coverage_grid.hpp"
@@ -120,6 +123,56 @@ TEST(Coverage, RefusesMechanismsThatItsTruthDoesNotHave) {
   spec.mechanisms = {"gas_film"};
   const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
   EXPECT_THROW(independent_truth(spec, datasets, 1), InputError);
+}
+
+// Stated normal noise, 20 points, nothing else uncertain: 95 % is what theory says of the
+// intervals, and 86 % of 100 or fewer happens once in 7000 times.
+TEST(OwnDesign, CountsTheIntervalsOfTheFitsOwnPoints) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  FitSpec spec = load_fit(root + "/fits/dahneke1975-quartz.toml");
+  spec.uncertainty.materials = Materials::exact;
+  const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
+  const auto alternatives = noise_alternatives(fitted);
+  std::vector<IntervalSet> sets = likelihood_intervals(alternatives, 0.95, 0);
+  std::vector<CaptureEstimate> captures = capture_estimates(alternatives, 0.95, datasets);
+  UncertaintyOptions options;
+  options.replicates = 0;
+  const BootstrapResult none = bootstrap(fitted, captures, options);
+  add_resampled_intervals(fitted, none, 0.95, 0, sets);
+  add_resampled_captures(fitted, none, 0.95, captures);
+  const auto counted = [&](int threads) {
+    options.threads = threads;
+    return own_design_coverage(spec, fitted, datasets, sets, captures, options, 100);
+  };
+  const std::vector<OwnCoverage> rows = counted(1);
+  const std::vector<OwnCoverage> again = counted(2);
+  ASSERT_EQ(rows.size(), 3U);  // C_H, C_A, V* of the one size
+  EXPECT_EQ(rows[0].quantity, "C_H");
+  EXPECT_EQ(rows[0].method, "profile");
+  EXPECT_EQ(rows[2].method, "delta");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_GT(rows[k].datasets, 90);
+    EXPECT_GT(rows[k].share(), 0.86) << rows[k].quantity;
+    EXPECT_EQ(rows[k].held, again[k].held);
+  }
+}
+
+TEST(OwnDesign, IsLeftOutWhereNobodyAsksOrItIsDear) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  FitSpec spec = load_fit(root + "/fits/dahneke1975-quartz.toml");
+  const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
+  FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
+  EXPECT_EQ(own_design_datasets(spec, fitted, 1999), 200);
+  EXPECT_EQ(own_design_datasets(spec, fitted, 0), 0);
+  FitResult many = fitted;
+  for (int k = 0; k < 10; ++k) {
+    many.data.points.insert(many.data.points.end(), fitted.data.points.begin(),
+                            fitted.data.points.end());
+  }
+  EXPECT_EQ(own_design_datasets(spec, many, 1999), 0);
+  spec.uncertainty.own_design = 50;
+  EXPECT_EQ(own_design_datasets(spec, many, 0), 50);
 }
 
 }  // namespace

@@ -257,6 +257,28 @@ TEST(Noise, IsUnknownWhereNothingScatters) {
   }
 }
 
+// Rounding to 0.01 has the standard deviation of a uniform number, 0.01 / sqrt(12). Readings that
+// by chance lie within 0.0005 of the curve do not know it better than that.
+TEST(Noise, IsNotSmallerThanTheRoundingOfTheReadings) {
+  Dataset data = design(300);
+  std::erase_if(data.points, [](const ImpactPoint& point) {
+    const double steps = 100.0 * point.restitution;
+    return std::abs(steps - std::round(steps)) > 0.05;
+  });
+  ASSERT_GT(data.points.size(), 10U);
+  for (ImpactPoint& point : data.points) {
+    point.restitution = std::round(100.0 * point.restitution) / 100.0;
+  }
+  NoiseSpec spec;
+  spec.variance = VarianceFunction::constant;
+  const FitResult result = fit_to(data, spec);
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_TRUE(result.data.noise.known);
+  for (const Observation& point : result.data.points) {
+    EXPECT_NEAR(point.weights.sd * result.noise_scale, 0.01 / std::sqrt(12.0), 1e-9);
+  }
+}
+
 TEST(Noise, StatedErrorsNeedNoScatter) {
   Dataset two = design(2);
   for (ImpactPoint& point : two.points) point.restitution_sd = 0.01;

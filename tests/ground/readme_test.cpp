@@ -118,7 +118,7 @@ TEST(Readme, CoverageIsThatOfTheStudy) {
   const fs::path report = tree::root() / "reports/coverage-designs.md";
   const auto study = page::table_of(report, "| design |");
   const std::size_t recommended = page::column_of(report, "| design |", "recommended, %");
-  const std::size_t identifiable = page::column_of(report, "| design |", "identifiable, %");
+  const std::size_t identifiable = page::column_of(report, "| design |", "well determined, %");
   const fs::path file = tree::root() / "docs/coverage.md";
   const auto rows = page::table_of(file, "| design");
   EXPECT_GE(rows.size(), 4U);

@@ -33,8 +33,8 @@ Sentence truth_words(TruthOrigin origin) {
 
 Table table_of(const std::vector<ParameterCoverage>& rows) {
   Table table;
-  table.columns = {{"design", {}, true}, {"parameter", {}, true}, {"identifiable, %"},
-                   {"actual error, %"},  {"recommended, %"},      {"where identifiable, %"}};
+  table.columns = {{"design", {}, true}, {"parameter", {}, true}, {"well determined, %"},
+                   {"actual error, %"},  {"recommended, %"},      {"where well determined, %"}};
   for (const char* kind : other_intervals) table.columns.push_back({kind});
   table.columns.push_back({"width / truth"});
   table.columns.push_back({"verdict", {}, true});
@@ -93,7 +93,7 @@ Sentence tally_words(const CoverageTally& tally) {
 Sentence meaning_of_nominal() {
   return say(
       "Nominal: the interval contains the truth in {:.0f} to {:.0f} % of the data sets. Warned: "
-      "the verdict called the parameter not identifiable in at least {:.0f} % of them. Where "
+      "the verdict called the parameter poorly determined in at least {:.0f} % of them. Where "
       "identifiable: of those in which it did not, which are those with a small estimate of the "
       "error; the level of an interval is that over all.",
       100.0 * least_nominal, 100.0 * most_nominal, 100.0 * least_warned);
@@ -113,7 +113,8 @@ std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows
   if (judged == 0) return std::nullopt;
   return say(
       "The verdict has a coverage of its own: of {} parameters whose estimates scatter by more "
-      "than a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} "
+      "than a tenth of their scale (actual error), {} were called well determined in more than "
+      "{:.0f} "
       "% of the data sets, in {:.1f} % at most.",
       judged, misled, 100.0 * most_misled, 100.0 * most);
 }

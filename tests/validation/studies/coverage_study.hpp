@@ -71,7 +71,7 @@ CoverageVerdict verdict_of(const ParameterCoverage& row);
 /// (`widest_error`)? Not asked of a capture velocity, which has no such verdict.
 bool scatters_too_much(const ParameterCoverage& row);
 
-/// Is such a parameter called identifiable in more than `most_misled` of the data sets?
+/// Is such a parameter called well determined in more than `most_misled` of the data sets?
 bool misleads(const ParameterCoverage& row);
 inline constexpr double most_misled = 0.05;
 
