@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <atomic>
 #include <chrono>
@@ -18,6 +19,7 @@
 
 #include "analysis/analysis.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/gsl_errors.hpp"
 #include "core/interrupt.hpp"
 #include "core/program.hpp"
@@ -406,6 +408,14 @@ void translate(std::exception_ptr thrown) {
 // ---- bindings ----------------------------------------------------------------------------------
 
 void bind_inputs(py::module_& module) {
+  module.def(
+      "write_whole_files",
+      [](const std::vector<std::pair<std::filesystem::path, std::string>>& files) {
+        std::vector<WholeFile> whole;
+        for (const auto& [path, text] : files) whole.push_back({path, text});
+        write_whole_files(whole);
+      },
+      py::arg("files"), py::call_guard<Released>());
   py::class_<Dataset>(module, "Dataset")
       .def_readonly("id", &Dataset::id)
       .def_readonly("title", &Dataset::title)
