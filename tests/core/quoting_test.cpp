@@ -91,7 +91,7 @@ TEST_F(Quoting, CAndItsDescendantsReadComments) {
 }
 
 // LAMMPS joins a line that ends in & to the next one, and reads on to the next """ whatever a #
-// says (Input::file in its input.cpp). ./run engines runs it.
+// says (Input::file in its input.cpp). ./run engines runs it with such names.
 TEST_F(Quoting, NothingInACommentSpansLinesInLammps) {
   for (const std::string& name : hostile_names()) {
     const std::string comment = comment_text(name);
