@@ -189,6 +189,15 @@ TEST(Claim, IsOneProcessAtATimeAndLeavesNothing) {
   EXPECT_EQ(told_elsewhere(result, folder), "no error");
 }
 
+TEST(RowOfNumbers, GivesBackEveryDigit) {
+  const std::vector<double> numbers = {1.0 / 3.0, -0.0,     5e-324, 1.7976931348623157e308,
+                                       INFINITY,  -INFINITY};
+  EXPECT_EQ(row_numbers(Json::parse(json_line(row_json(numbers)))), numbers);
+  EXPECT_TRUE(std::isnan(row_numbers(row_json({NAN})).at(0)));
+  EXPECT_THROW(row_numbers(Json("word")), JsonMismatch);
+  EXPECT_THROW(row_numbers(Json::parse("[1,\"word\"]")), JsonMismatch);
+}
+
 // Locks of two open files exclude each other in one process, too.
 TEST(Claim, WhatIsNoLockAndWhatCannotBeMadeIsRefused) {
   const support::TemporaryFolder folder;
