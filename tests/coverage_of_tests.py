@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""coverage_of_tests.py BUILD: what the tests of a build with counters reached.
+"""coverage_of_tests.py PROFILES PROGRAM...: what runs of programs with clang's counters reached.
 
-Prints a table of lines and branches of src by folder, then, behind an empty line, the lines that
-nothing reached. Branches are those of conditions; the ways out of a call that throws are not
-counted, for every call has one.
+PROFILES is the folder of what they counted (*.profraw). Prints a table of lines and branches of src
+by folder, then, behind an empty line, the lines and conditions that nothing reached. A branch is one
+outcome of a condition of the source, true or false; the instances of a template share theirs.
 """
 
 import collections
-import json
 import re
 import subprocess
 import sys
@@ -16,30 +15,29 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parent.parent
 
 
-def counted(build):
+def counted(profiles, programs):
     """Executions of every line, and of every branch of every line, by file."""
-    lines = collections.defaultdict(lambda: collections.defaultdict(int))
-    branches = collections.defaultdict(lambda: collections.defaultdict(int))
-    for data in sorted(build.rglob("*.gcda")):
-        report = subprocess.run(
-            ["gcov", "--json-format", "--branch-probabilities", "--stdout", str(data)],
-            capture_output=True, text=True, check=True, cwd=build,
-        ).stdout
-        for document in filter(None, report.splitlines()):
-            for file in json.loads(document)["files"]:
-                path = (build / file["file"]).resolve()
-                if not path.is_relative_to(SOURCE / "src"):
-                    continue
-                name = path.relative_to(SOURCE).as_posix()
-                seen = collections.Counter()
-                for line in file["lines"]:
-                    number = line["line_number"]
-                    lines[name][number] += line["count"]
-                    for branch in line["branches"]:
-                        key = (number, seen[number])
-                        seen[number] += 1
-                        if not branch["throw"]:
-                            branches[name][key] += branch["count"]
+    lines = collections.defaultdict(dict)
+    branches = collections.defaultdict(collections.Counter)
+    name = ""
+    merged = profiles / "merged"
+    subprocess.run(["llvm-profdata-14", "merge", "-o", merged, *profiles.glob("*.profraw")], check=True)
+    objects = [word for program in programs[1:] for word in ("-object", program)]
+    report = subprocess.run(
+        ["llvm-cov-14", "export", "-format=lcov", f"-instr-profile={merged}", programs[0], *objects],
+        stdout=subprocess.PIPE, text=True, check=True)
+    for entry in report.stdout.splitlines():
+        kind, _, rest = entry.partition(":")
+        if kind == "SF":
+            path = Path(rest)
+            inside = path.is_relative_to(SOURCE / "src")
+            name = path.relative_to(SOURCE).as_posix() if inside else ""
+        elif name and kind == "DA":
+            number, count = rest.split(",")[:2]
+            lines[name][int(number)] = int(count)
+        elif name and kind == "BRDA":
+            number, block, branch, count = rest.split(",")
+            branches[name][int(number), block, branch] += 0 if count == "-" else int(count)
     return lines, branches
 
 
@@ -55,7 +53,7 @@ def ranges(numbers):
 
 
 def main():
-    lines, branches = counted(Path(sys.argv[1]).resolve())
+    lines, branches = counted(Path(sys.argv[1]), sys.argv[2:])
     if not lines:
         sys.exit("coverage_of_tests.py: nothing was counted")
     folders = collections.defaultdict(lambda: [0, 0, 0, 0])
@@ -65,15 +63,16 @@ def main():
         folder[1] += sum(count > 0 for count in counts.values())
         folder[2] += len(branches[name])
         folder[3] += sum(count > 0 for count in branches[name].values())
-    print(f"{'folder':20}{'lines':>8}{'reached':>10}{'branches':>10}{'reached':>10}")
+    print("| folder | lines | reached | branches | reached |\n|---|---:|---:|---:|---:|")
     for folder, (total, reached, ways, taken) in sorted(folders.items()):
-        share = f"{100 * taken / ways:9.1f}%" if ways else f"{'-':>10}"
-        print(f"{folder:20}{total:8}{100 * reached / total:9.1f}%{ways:10}{share}")
+        share = f"{100 * taken / ways:.1f} %" if ways else ""
+        print(f"| {folder} | {total} | {100 * reached / total:.1f} % | {ways} | {share} |")
     print()
     for name, counts in sorted(lines.items()):
-        missed = [number for number, count in counts.items() if count == 0]
-        if missed:
-            print(f"{name}: {ranges(missed)}")
+        missed = {number for number, count in counts.items() if count == 0}
+        half = {key[0] for key, count in branches[name].items() if count == 0} - missed
+        if missed or half:
+            print(f"{name}: lines {ranges(missed) or 'none'}; conditions of {ranges(half) or 'none'}")
 
 
 if __name__ == "__main__":

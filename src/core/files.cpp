@@ -283,7 +283,11 @@ void require_free(const std::vector<std::filesystem::path>& outputs, Replacing r
     const std::filesystem::path place =
         std::filesystem::absolute(output, failed).lexically_normal();
     struct stat file {};
-    const bool exists = stat(output.c_str(), &file) == 0 && S_ISREG(file.st_mode);
+    const bool found = stat(output.c_str(), &file) == 0;
+    if (found && S_ISDIR(file.st_mode)) {
+      refuse("a folder has the name of this result", "choose another place for the result");
+    }
+    const bool exists = found && S_ISREG(file.st_mode);
     if (!places.insert(place).second || (exists && !files.insert(identity_of(file)).second)) {
       refuse("two results would have this one name", "give one of them another name");
     }

@@ -45,9 +45,9 @@ void write_whole_files(const std::vector<WholeFile>& files,
                        Replacing replacing = Replacing::results);
 
 /// Commands ask before the work, and write_whole_files asks again.
-/// @throws InputError where two of the outputs are one file, and, where inputs are protected and
-/// data may not be replaced, where one is a file that this process has read or an existing
-/// points.csv or datapackage.json
+/// @throws InputError where two of the outputs are one file, where one is a folder, and, where
+/// inputs are protected and data may not be replaced, where one is a file that this process has
+/// read or an existing points.csv or datapackage.json
 void require_free(const std::vector<std::filesystem::path>& outputs,
                   Replacing replacing = Replacing::results);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/hostile_cases.hpp"
 #include "support/workplace.hpp"
 
 namespace {
@@ -19,6 +20,7 @@ using support::Workplace;
 
 /// The grammar of every complaint, and that nothing else happened.
 void expect_refusal(const Outcome& run, const std::vector<std::string>& words) {
+  support::count_hostile_cases();
   EXPECT_EQ(run.status, 2) << "stdout: " << run.out << "\nstderr: " << run.err;
   EXPECT_EQ(run.out, "") << "nothing belongs on stdout";
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;

@@ -179,10 +179,9 @@ TEST(DiskAtWork, AResultThatHasNoRoomIsPrintedAllTheSame) {
 
 TEST(DiskAtWork, AFullStandardOutputIsTold) {
   const SmallDisk disk;
-  const std::string binary = RECOIL_BINARY;
-  for (const char* words : {" fit fit.toml", " diagnose fit.toml --json", " help data"}) {
-    const Outcome told =
-        support::run_command({"sh", "-c", binary + words + " >/dev/full"}, disk.path());
+  for (const std::string words : {"fit fit.toml", "diagnose fit.toml --json", "help data"}) {
+    const Outcome told = support::run_command(
+        {"sh", "-c", "\"$0\" " + words + " >/dev/full", RECOIL_BINARY}, disk.path());
     EXPECT_EQ(told.status, 3) << told.err;
     EXPECT_EQ(told.err, "the output could not be written: standard output is full or closed\n");
   }

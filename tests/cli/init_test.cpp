@@ -60,8 +60,8 @@ TEST(Init, AsksOnATerminal) {
   // script(1) gives the program a terminal; the answers come as if they were typed
   const std::string answers = "glass\\n2500\\n70e9\\n0.22\\nsteel\\n200e9\\n0.3\\n\\n\\n";
   const Outcome made = support::run_command(
-      {"sh", "-c",
-       "printf '" + answers + "' | script -qec '" RECOIL_BINARY " init mine' /dev/null"},
+      {"env", "RECOIL=" RECOIL_BINARY, "sh", "-c",
+       "printf '" + answers + "' | script -qec '\"$RECOIL\" init mine' /dev/null"},
       place.path());
   EXPECT_EQ(made.status, 0) << made.out << made.err;
   EXPECT_NE(made.out.find("Young's modulus [Pa]"), std::string::npos) << made.out;

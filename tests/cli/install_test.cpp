@@ -15,6 +15,9 @@ using support::run_command;
 
 const std::string kBuild = fs::path(RECOIL_BINARY).parent_path().string();
 
+/// Means something to a shell, and in a regular expression.
+const std::string kMeaningful = "c++ (new)";
+
 void expect_a_whole_installation(const fs::path& prefix) {
   for (const char* file :
        {"bin/recoil", "share/doc/recoil/LICENSE", "share/recoil/schemas/fit.schema.json"}) {
@@ -48,7 +51,7 @@ TEST(Install, TheInstalledProgramNeedsNoSourceTree) {
 
 TEST(Install, AnotherProjectFindsTheEstimatorAndTheLibrary) {
   const support::TemporaryFolder place;
-  const std::string prefix = place / "there";
+  const std::string prefix = place / kMeaningful;
   ASSERT_EQ(run_command({"cmake", "--install", kBuild, "--prefix", prefix}, place.path()).status,
             0);
   place.write("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
@@ -109,7 +112,7 @@ int main(int, char** arguments) {
 }
 )");
   const Outcome built = run_command(
-      {"sh", "-c", "cmake -B build -DCMAKE_PREFIX_PATH=" + prefix + " && cmake --build build"},
+      {"sh", "-c", "cmake -B build -DCMAKE_PREFIX_PATH=\"$0\" && cmake --build build", prefix},
       place.path());
   ASSERT_EQ(built.status, 0) << built.out << built.err;
   EXPECT_EQ(run_command({place / "build/fits"}, place.path()).out, "1.000000 2.000000\n");
@@ -126,6 +129,41 @@ int main(int, char** arguments) {
   const recoil::Json both = recoil::Json::parse(analysed.out);
   EXPECT_TRUE(both[0]["parameters"]["C_H"]["value"].is_number());
   EXPECT_TRUE(both[1]["verdict"].is_string());
+}
+
+// `./run test` in such a folder: configured with everything, each command of the build worked out,
+// one target built, and the scripts that are given files of that folder.
+TEST(Install, TheFolderOfTheSourcesMayHaveAnyName) {
+  const support::TemporaryFolder place;
+  const fs::path tree = place / kMeaningful;
+  fs::create_directory(tree);
+  for (const auto& entry : fs::directory_iterator(RECOIL_SOURCE_DIR)) {
+    const fs::path name = entry.path().filename();
+    if (name == "build" || name == ".git") continue;
+    fs::copy(entry.path(), tree / name, fs::copy_options::recursive);
+  }
+  const Outcome configured =
+      run_command({"cmake", "--preset", "release", "-DRECOIL_PYTHON=ON"}, tree);
+  ASSERT_EQ(configured.status, 0) << configured.err;
+  const fs::path build = tree / "build/release";
+  EXPECT_EQ(run_command({"ninja", "-n"}, build).status, 0);
+  const Outcome built = run_command({"ninja", "failing_calls"}, build);
+  EXPECT_EQ(built.status, 0) << built.out;
+  EXPECT_NE(run_command({tree / "run", "help"}, place.path()).out.find("./run test"),
+            std::string::npos);
+  // an inline function that two kernels share is found
+  for (const char* folder : {"one", "two"}) {
+    support::write_text(tree / folder / "kernel.cpp",
+                        "inline int shared() { static int n; return ++n; }\n"
+                        "int " +
+                            std::string(folder) + "() { return shared(); }\n");
+    ASSERT_EQ(run_command({"g++", "-c", "kernel.cpp"}, tree / folder).status, 0);
+  }
+  const Outcome shared = run_command(
+      {tree / "tests/impact/kernel_symbols.sh", tree / "one/kernel.o", tree / "two/kernel.o"},
+      place.path());
+  EXPECT_EQ(shared.status, 1) << shared.out;
+  EXPECT_NE(shared.out.find("shared()"), std::string::npos) << shared.out;
 }
 
 TEST(Install, ADebianPackageHoldsTheSame) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -29,6 +30,7 @@ using support::Workplace;
 
 /// Status 2 and one line.
 void expect_refusal(const Outcome& run, const std::string& words) {
+  support::count_hostile_cases();
   EXPECT_EQ(run.status, 2) << run.out << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
@@ -78,6 +80,7 @@ TEST(Safety, NoCommandReplacesDataUnasked) {
                            "--history", "data/points.csv"},
                           {"init", "data", "--like", "data", "--diameter", "5"}}) {
     const Outcome run = place.run(words);
+    support::count_hostile_cases();
     EXPECT_EQ(run.status, 2) << words.front() << run.out;
     EXPECT_EQ(place.read("data/points.csv"), points) << words.front();
     EXPECT_EQ(place.read("data/datapackage.json"), package) << words.front();
@@ -188,6 +191,7 @@ TEST(Safety, ForgedHeadsOfPartsAreRefused) {
     EXPECT_TRUE(run.status == 2 || run.status == 3 || std::string(key) == "folder")
         << key << value << run.status << run.err;
     EXPECT_LT(run.status, 128) << key << value;
+    support::count_hostile_cases();
     EXPECT_EQ(run.err.find("defect"), std::string::npos) << run.err;
   }
   support::write_text(
@@ -323,7 +327,7 @@ TEST(Safety, HostileNamesRunNothingInExportsAndReachNoTerminal) {
     const std::string result = "./" + name;
     const Outcome fitted = place.run({"fit", fit, "--replicates", "0", "--out", result});
     ASSERT_EQ(fitted.status, 0) << fitted.err;
-    for (const char* target : {"yade", "lammps", "fluent"}) {
+    for (const char* target : {"yade", "lammps", "fluent", "openfoam"}) {
       const Outcome run = place.run(
           {"export", fit, "--parameters", result + "/fit.json", "--to", target, "--out", "out"});
       ASSERT_EQ(run.status, 0) << run.err;
@@ -335,10 +339,15 @@ TEST(Safety, HostileNamesRunNothingInExportsAndReachNoTerminal) {
     // YADE's names are not known to Python alone, which comes as far as them.
     const Outcome python = run_command({"python3", "out/impact.py"}, place.path());
     EXPECT_NE(python.err.find("NameError"), std::string::npos) << name << python.err;
-    // The comment of C is a comment: the compiler comes as far as Fluent's own header.
-    const Outcome c = run_command({"gcc", "-fsyntax-only", "out/recoil_rebound.c"}, place.path());
-    EXPECT_NE(c.err.find("udf.h: No such file"), std::string::npos) << c.err;
-    EXPECT_EQ(c.err.find("recoil_rebound.c:1:"), std::string::npos) << c.err;
+    // The comments of C and C++ are comments: the compilers come as far as the headers of Fluent
+    // and OpenFOAM.
+    for (const auto& [compiler, file, header] : std::vector<std::array<std::string, 3>>{
+             {"gcc", "recoil_rebound.c", "udf.h"},
+             {"g++", "recoilRebound/recoilRebound.H", "PatchInteractionModel.H"}}) {
+      const Outcome c = run_command({compiler, "-fsyntax-only", "out/" + file}, place.path());
+      EXPECT_NE(c.err.find(header + ": No such file"), std::string::npos) << c.err;
+      EXPECT_EQ(c.err.find(file + ":1:"), std::string::npos) << c.err;
+    }
   });
 }
 
@@ -415,6 +424,7 @@ void expect_whole_files(const Workplace& place, const Writer& writer) {
   for (const std::string& file : writer.files) whole.push_back(place.read(file));
   const auto listing = place.listing();
   for (std::size_t n = 1; n <= calls; ++n) {
+    support::count_hostile_cases();
     for (const std::string& file : writer.files) place.write(file, "old");
     const Outcome failed = run("FAILING_CALL=" + std::to_string(n));
     EXPECT_TRUE(failed.status == 0 || failed.status == 2) << n << failed.err;

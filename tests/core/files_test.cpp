@@ -134,6 +134,35 @@ TEST_F(Files, TwoResultsOfOneNameAreRefused) {
   }
 }
 
+TEST_F(Files, WhatIsInTheWayIsNamed) {
+  folder_.write("file", "x");
+  fs::create_directory(folder_ / "taken");
+  const auto told = [](const auto& act) { return support::message_of(act); };
+  // before the first of them is written
+  EXPECT_NE(told([&] {
+              write_whole_files({{folder_ / "file", "y"}, {folder_ / "taken", "y"}});
+            }).find("taken: a folder has the name of this result"),
+            std::string::npos);
+  EXPECT_EQ(folder_.read("file"), "x");
+  EXPECT_NE(told([] {
+              write_whole_file("/dev/full", "x");
+            }).find("the file cannot be written (No space left on device); make room there"),
+            std::string::npos);
+  EXPECT_NE(told([&] { write_whole_file(folder_ / "file/below", "x"); }).find("cannot be written"),
+            std::string::npos);
+  EXPECT_NE(told([&] {
+              require_writable_folder(folder_ / "file/below");
+            }).find("is a file, not a folder"),
+            std::string::npos);
+  EXPECT_NE(
+      told([&] { require_writable_folder(folder_ / "file"); }).find("is a file, not a folder"),
+      std::string::npos);
+  EXPECT_EQ(told([&] { require_writable_folder(folder_ / "new/deep"); }), "no error");
+  EXPECT_NE(told([] { read_text_file("/dev/zero", 1000); }).find("(no more is read); split it"),
+            std::string::npos);
+  EXPECT_EQ(sha256_of_file(folder_ / "missing"), "");
+}
+
 TEST_F(Files, AReplacedFileKeepsItsPermissions) {
   folder_.write("private", "x");
   for (const mode_t mode : {0600U, 0640U, 0755U}) {

@@ -187,6 +187,39 @@ TEST(Claim, IsOneProcessAtATimeAndLeavesNothing) {
   EXPECT_EQ(told_elsewhere(result, folder), "no error");
 }
 
+TEST(RowOfNumbers, GivesBackEveryDigit) {
+  const std::vector<double> numbers = {1.0 / 3.0, -0.0,     5e-324, 1.7976931348623157e308,
+                                       INFINITY,  -INFINITY};
+  EXPECT_EQ(row_numbers(Json::parse(json_line(row_json(numbers)))), numbers);
+  EXPECT_TRUE(std::isnan(row_numbers(row_json({NAN})).at(0)));
+  EXPECT_THROW(row_numbers(Json("word")), JsonMismatch);
+  EXPECT_THROW(row_numbers(Json::parse("[1,\"word\"]")), JsonMismatch);
+}
+
+// Locks of two open files exclude each other in one process, too.
+TEST(Claim, WhatIsNoLockAndWhatCannotBeMadeIsRefused) {
+  const support::TemporaryFolder folder;
+  const auto told = [&](const char* name) {
+    return support::message_of([&] { const Claim claim(folder / name); });
+  };
+  folder.write("precious", "text");
+  folder.write("text.lock", "text");
+  std::filesystem::create_symlink("precious", folder / "link.lock");
+  std::filesystem::create_directory(folder / "folder.lock");
+  for (const char* name : {"text", "link"}) {
+    EXPECT_NE(told(name).find("this is no lock of recoil"), std::string::npos) << told(name);
+  }
+  EXPECT_NE(told("folder").find("the file cannot be written"), std::string::npos);
+  EXPECT_NE(told("precious/below").find("the file cannot be written"), std::string::npos);
+  EXPECT_EQ(folder.read("precious"), "text");
+  EXPECT_EQ(folder.read("text.lock"), "text");
+  {
+    const Claim claim(folder / "deep/mine");
+    EXPECT_NE(told("deep/mine").find("(process " + std::to_string(getpid())), std::string::npos);
+  }
+  EXPECT_FALSE(folder.has("deep"));
+}
+
 TEST(Claim, OneThatWasKilledIsTakenOver) {
   const support::TemporaryFolder folder;
   const auto result = folder / "fit.json";

@@ -61,6 +61,23 @@ TEST_F(Quoting, ATerminalIsToldNothing) {
   EXPECT_EQ(printable("ünï – ☃"), "ünï – ☃");
 }
 
+// The first and the last sequence of each length, and what RFC 3629 excludes: overlong forms,
+// surrogates, what lies beyond U+10FFFF, and sequences that end too early.
+TEST(Utf8, HasTheLimitsOfRfc3629) {
+  for (const std::string text :
+       {"a", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+        "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(utf8_length(text, 0), text.size()) << text;
+    EXPECT_EQ(utf8_length("a" + text + "b", 1), text.size()) << text;
+  }
+  for (const std::string text :
+       {"\x80", "\xbf", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
+        "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xc3", "\xe2\x98", "\xe2\x98\x41",
+        "\xe2\x41\x83", "\xf0\x90\x80\x41"}) {
+    EXPECT_EQ(utf8_length(text, 0), 0U) << text;
+  }
+}
+
 /// All names, each in a comment of its own.
 std::string comments(const std::string& mark, const std::string& end = "\n") {
   std::string text;
@@ -91,7 +108,7 @@ TEST_F(Quoting, CAndItsDescendantsReadComments) {
 }
 
 // LAMMPS joins a line that ends in & to the next one, and reads on to the next """ whatever a #
-// says (Input::file in its input.cpp). ./run engines runs it.
+// says (Input::file in its input.cpp). ./run engines runs it with such names.
 TEST_F(Quoting, NothingInACommentSpansLinesInLammps) {
   for (const std::string& name : hostile_names()) {
     const std::string comment = comment_text(name);

@@ -220,6 +220,30 @@ TEST(Resumable, DamagedPartsAreNotTrusted) {
   }
 }
 
+TEST(Resumable, PartsOfOtherWorkAreRefused) {
+  const TemporaryFolder folder;
+  const auto told = [&](const Origin& origin) {
+    return support::message_of([&] { rows_of_parts(folder.path(), origin); });
+  };
+  EXPECT_NE(told(some_origin()).find("there are no parts here"), std::string::npos);
+  run_shard(squares(), {1, 2}, folder.path());
+  EXPECT_THROW(rows_of_parts(folder.path(), some_origin()), ComputationError);  // 2/2 is missing
+  run_shard(squares(), {2, 2}, folder.path());
+  EXPECT_EQ(told(some_origin()), "no error");
+  Origin other = some_origin();
+  other.seed = 6;
+  EXPECT_NE(told(other).find("this part is not of what would be computed here now"),
+            std::string::npos);
+  // a head whose members are of other types is no part; one of another seed is one too many
+  const std::string name = part_path(folder.path(), some_origin(), {1, 2}).filename().string();
+  const std::string text = folder.read(name);
+  folder.write("part-typed.jsonl", support::changed(text, "\"part\":1", "\"part\":\"1\""));
+  EXPECT_EQ(told(some_origin()), "no error");
+  folder.write("part-other.jsonl", support::changed(text, "\"seed\":5", "\"seed\":6"));
+  EXPECT_NE(told(some_origin()).find("this part does not belong to part-"), std::string::npos)
+      << told(some_origin());
+}
+
 TEST(Arithmetic, TheFingerprintIsTheSameEveryTime) {
   EXPECT_EQ(arithmetic_fingerprint().size(), 64U);
   EXPECT_EQ(arithmetic_fingerprint(), arithmetic_fingerprint());

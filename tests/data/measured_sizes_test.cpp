@@ -40,6 +40,21 @@ TEST_F(Sizes, CountsOfDiameters) {
   EXPECT_DOUBLE_EQ(sizes.largest, 60e-6);
 }
 
+TEST_F(Sizes, TwoColumnsOfOneMeaningOrMoreSizesThanAreSimulated) {
+  EXPECT_THAT(complaint("diameter,count,weight\n1,2,3\n"),
+              testing::HasSubstr("sizes.csv:1:16: 'weight' is a second column"));
+  std::string many = "diameter,count\n";
+  for (int i = 1; i <= 2'001; ++i) many += std::to_string(i) + "e-3,1\n";
+  EXPECT_THAT(complaint(many), testing::HasSubstr("sort them into bins"));
+}
+
+TEST_F(Sizes, AHeightOfTheProbeBesideThemHasToBeOne) {
+  folder_.write("datapackage.json",
+                R"({"resources": [{"path": "sizes.csv", "probe_height": -1}]})");
+  EXPECT_THAT(complaint("diameter,count\n60,1\n"),
+              testing::HasSubstr("datapackage.json:1:54: probe_height = -1 m"));
+}
+
 TEST_F(Sizes, BinsWithEnds) {
   const MeasuredSizes sizes = read("lower,upper,fraction\n20,30,0.25\n30,40,0.75\n");
   EXPECT_NEAR(sizes.mean_diameter(), 32.5e-6, 1e-18);

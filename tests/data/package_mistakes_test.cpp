@@ -67,6 +67,23 @@ const Mistake package_mistakes[] = {
     {"delimiter_too_long", "\"path\": \"points.csv\",",
      "\"path\": \"points.csv\", \"dialect\": { \"delimiter\": \"ab\" },",
      "datapackage.json:7:53: ", "the delimiter is 'ab'", "commas"},
+    {"encoding", "\"path\": \"points.csv\",", "\"path\": \"points.csv\", \"encoding\": \"latin1\",",
+     "datapackage.json:7:39: ", "the encoding is 'latin1'", "save the points as UTF-8"},
+    {"header_is_a_word", "\"path\": \"points.csv\",",
+     "\"path\": \"points.csv\", \"dialect\": { \"header\": 1 },",
+     "datapackage.json:7:50: ", "neither true nor false", "false if there is none"},
+    {"comment_too_long", "\"path\": \"points.csv\",",
+     "\"path\": \"points.csv\", \"dialect\": { \"commentChar\": \"//\" },",
+     "datapackage.json:7:55: ", "commentChar is '//'", "write \"#\""},
+    {"quotes_are_others", "\"path\": \"points.csv\",",
+     "\"path\": \"points.csv\", \"dialect\": { \"quoteChar\": \"'\" },",
+     "datapackage.json:7:53: ", "'quoteChar' is not supported", "remove it"},
+    {"decimal_mark_is_a_digit", "\"number\", \"unit\": \"um\"",
+     "\"number\", \"decimalChar\": \"1\", \"unit\": \"um\"",
+     "datapackage.json:11:64: ", "decimalChar is '1'", "write"},
+    {"decimal_and_group_mark_are_one", "\"number\", \"unit\": \"um\"",
+     "\"number\", \"groupChar\": \".\", \"unit\": \"um\"",
+     "datapackage.json:11:62: ", "groupChar and decimalChar are equal", "correct one"},
     {"schema_missing", "\"schema\"", "\"shema\"", "datapackage.json:6:17: ", "'schema' is missing",
      "name, type and unit"},
     // The fields.
@@ -183,6 +200,20 @@ TEST(PackageFile, EmptyOrNoObject) {
   DatasetFolder("{\n  \"name\": \"x\",")
       .expect(
           {"", "", "", "datapackage.json:2:15: ", "a key in quotes is missing", "just before it"});
+}
+
+TEST(PackageFile, NoFileOrNoRebound) {
+  const std::size_t at = package.find("\"resources\": [") + 13;
+  const std::size_t end = package.find("}],\n  \"recoil\"") + 2;
+  DatasetFolder(package.substr(0, at) + "[]" + package.substr(end))
+      .expect({"", "", "", "datapackage.json:6:16: ", "'resources' is empty", "points.csv"});
+  std::string without = package;
+  for (const char* name : {"restitution", "events"}) {
+    const std::size_t line = without.find("        { \"name\": \"" + std::string(name) + "\"");
+    without.erase(line, without.find('\n', line) + 1 - line);
+  }
+  DatasetFolder(without).expect({"", "", "", "datapackage.json:9:17: ",
+                                 "neither 'restitution' nor 'rebound_velocity'", "add one"});
 }
 
 TEST(PackageFile, FolderOrFileIsNotThere) {

@@ -147,6 +147,23 @@ TEST(PointsFile, BinaryMissingOrHuge) {
       {"", "", "", "datapackage.json:7:13: ", "there is no file 'points.csv'", "add the file"});
 }
 
+TEST(PointsFile, WhatTheSchemaOrTheOtherPointsExclude) {
+  const std::string required = changed(package, R"("restitution_sd", "type": "number",)",
+                                       R"("restitution_sd", "type": "number",
+          "constraints": { "required": true },)");
+  DatasetFolder(required, points)
+      .expect({"", "", "", "points.csv:3:18: ", "'restitution_sd' is empty", "fill it in"});
+  const std::string one_by_one =
+      changed(package, R"("captured", "type": "integer")", R"("captured", "type": "boolean")");
+  DatasetFolder(one_by_one, changed(points, "40,3", "40,true"))
+      .expect({"", "", "", "points.csv:2:30: ", "true or false of a single impact", "\"integer\""});
+  // a thousand times smaller than the middle one, 1.5 %
+  DatasetFolder(package,
+                changed(changed(points, "35,0.95,1.5", "35,0.95,1e-4"), "0.912,", "0.912,1.5"))
+      .expect(
+          {"", "", "", "points.csv:", "2.4e+03 times smaller than usual", "leave the cell empty"});
+}
+
 TEST(PointsFile, ReboundTooFast) {
   const std::string with_rebound =
       changed(package, R"("restitution", "type": "number", "unit": "1")",

@@ -274,9 +274,10 @@ TEST(Forms, AWorkbookIsReadByTheConverterThatIsThere) {
     return support::run_command(
         {"sh", "-c",
          "chmod +x xlsx2csv; PATH=" + path +
-             " " RECOIL_BINARY " import book.xlsx --format csv --into made --replace --map "
+             " \"$0\" import book.xlsx --format csv --into made --replace --map "
              "incident_velocity=V:m/s,restitution=e --particle steel --surface glass --diameter "
-             "5mm --provenance measured"},
+             "5mm --provenance measured",
+         RECOIL_BINARY},
         place.path());
   };
   const auto missing = import("/nowhere");

@@ -112,6 +112,9 @@ TEST(Events, RunsHaveTheirOwnTime) {
 }
 
 TEST(Events, MistakesOfTheUser) {
+  EXPECT_NE(complaint("time,velocity,velocity,diameter\n1,2,2,3\n")
+                .find("dir/e.csv:1:2: two columns are called 'velocity'"),
+            std::string::npos);
   EXPECT_NE(complaint("time,velocity\n1,2\n").find("dir/e.csv:1:1: there is no column 'diameter'"),
             std::string::npos);
   EXPECT_NE(complaint("time,velocity,diameter\n1,2,3\n", {}).find("the unit of 'time'"),

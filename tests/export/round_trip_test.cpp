@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+
+#include "support/hostile_names.hpp"
 
 namespace {
 
@@ -110,6 +113,29 @@ TEST(RoundTrip, LiggghtsHasTheConstantRestitutionAndItsStatedError) {
     EXPECT_NEAR(trip.liggghts("out", v), constant, 1e-3);
   }
   expect_the_stated_error(trip, said, [&](double v) { return trip.liggghts("out", v); });
+}
+
+// Headings name the files that the values are from.
+TEST(RoundTrip, HostileNamesRunNothingInLammpsAndLiggghts) {
+  const RoundTrip trip(kRing);
+  const support::Workplace& place = trip.place();
+  const double e = trip.expected(2.4);
+  for (const std::string& name : support::hostile_names()) {
+    if (name.find('/') != std::string::npos) continue;
+    std::filesystem::create_directory(place / name);
+    std::filesystem::copy(place / "data", place / name / "data");
+    std::filesystem::copy_file(place / "fit.toml", place / name / "fit.toml");
+    for (const char* target : {"lammps", "liggghts"}) {
+      const support::Outcome run =
+          place.run({"export", "./" + name + "/fit.toml", "--parameters", "fitted/fit.json", "--to",
+                     target, "--diameter", "4", "--velocity", "0.5,25", "--out", "out"});
+      ASSERT_EQ(run.status, 0) << name << run.err;
+    }
+    EXPECT_NEAR(trip.lammps("out", 2.4), e, 1e-4) << name;
+    EXPECT_GT(trip.liggghts("out", 2.4), 0.0) << name;
+    EXPECT_FALSE(place.has("PWNED")) << name;
+    std::filesystem::remove_all(place / name);
+  }
 }
 
 TEST(RoundTrip, TwoLikeBodiesInLiggghtsAreAsStiffAsTheTwoUnlike) {

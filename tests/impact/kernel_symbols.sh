@@ -4,13 +4,13 @@
 # are of one instruction set.
 set -eu
 folders=$(dirname "$@" | sort -u)
-shared=$(for folder in $folders; do
+shared=$(while IFS= read -r folder; do
   for object in "$@"; do
     if [ "$(dirname "$object")" = "$folder" ]; then
       nm --defined-only "$object" | awk '$2 ~ /^[WVu]$/ { print $3 }'
     fi
   done | sort -u
-done | sort | uniq -d | grep -v '^DW\.ref\.' || true)
+done <<<"$folders" | sort | uniq -d | grep -v '^DW\.ref\.' || true)
 if [ -n "$shared" ]; then
   echo "defined in more than one kernel:"
   echo "$shared" | c++filt

@@ -6,6 +6,7 @@ import math
 import multiprocessing
 import os
 import pickle
+import shutil
 import stat
 import subprocess
 import sys
@@ -99,12 +100,29 @@ def test_a_thread_that_fits_at_exit_takes_nothing_down(here):
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
-def test_a_saved_file_keeps_its_permissions(here):
-    fit = recoil.fit("mine.toml", replicates=0)
-    path = fit.save(here / "out")
-    path.chmod(0o600)
-    fit.save(here / "out")
-    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+def test_every_file_is_saved_by_the_safe_writer(here):
+    """Through a link, with the old permissions, whole or not at all, and with nothing beside it."""
+    fit, dataset = recoil.fit("mine.toml", replicates=0), recoil.load_dataset("mine")
+    for name, save in (("fit.json", fit.save), ("points.csv", dataset.save),
+                       ("datapackage.json", dataset.save)):
+        (here / "kept").mkdir()
+        (here / "kept" / name).write_text("old")
+        (here / "kept" / name).chmod(0o600)
+        (here / "out").mkdir()
+        (here / "out" / name).symlink_to(here / "kept" / name)
+        save("out")
+        assert (here / "out" / name).is_symlink()
+        assert (here / "kept" / name).read_text() != "old"
+        assert stat.S_IMODE((here / "kept" / name).stat().st_mode) == 0o600
+        assert os.listdir(here / "kept") == [name]
+        shutil.rmtree(here / "kept")
+        shutil.rmtree(here / "out")
+    # the second of two files has no place: the first one stays as it was
+    (here / "out" / "datapackage.json").mkdir(parents=True)
+    (here / "out" / "points.csv").write_text("old")
+    with pytest.raises(recoil.InputError, match="datapackage.json"):
+        dataset.save("out")
+    assert (here / "out" / "points.csv").read_text() == "old"
 
 
 def test_the_locale_of_the_process_changes_no_byte(here, tmp_path):

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
+#include <limits>
 
 #include "report/words_dataset.hpp"
 #include "support/dataset_folder.hpp"
@@ -68,6 +70,39 @@ TEST(DatasetDocument, SumsUpEverySeries) {
   for (const auto& row : table.rows) points += std::get<Number>(row[2]).value;
   EXPECT_EQ(points, 4.0);
   EXPECT_EQ(plain_text(words_of_cell(table.rows[0][0])), dataset.series[0]);
+}
+
+/// Seconds of the processor for what `recoil check` does, the least of three.
+double cost_of_check(const std::string& title, std::size_t series) {
+  std::string points =
+      "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,"
+      "events,captured\n";
+  for (std::size_t i = 0; i < series; ++i) {
+    points += "s" + std::to_string(i) + ",4.9," + std::to_string(i + 1) + "e-5,0.9,,,,\n";
+  }
+  const std::string package = support::changed(example::package, "Spheres on quartz", title);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const std::clock_t begin = std::clock();
+    EXPECT_GT(dataset_text(dataset_of(package, points)).size(), title.size() + series);
+    least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+// 16 times as much costs 16 times as much where the cost is linear, and 256 times where it is
+// quadratic.
+TEST(DatasetDocument, TheCostOfACheckIsLinearInTheSeries) {
+  EXPECT_LT(cost_of_check("title", 32'000), 64.0 * cost_of_check("title", 2'000));
+}
+
+TEST(DatasetDocument, TheCostOfACheckIsLinearInTheTitle) {
+  for (const std::string piece : {"x", "x ", "ü", "*", "`", "[", "<"}) {
+    std::string few, many;
+    for (int i = 0; i < 60'000; ++i) few += piece;
+    for (int i = 0; i < 16; ++i) many += few;
+    EXPECT_LT(cost_of_check(many, 1), 64.0 * cost_of_check(few, 1)) << piece;
+  }
 }
 
 TEST(Provenance, EachHasItsOneSentence) {

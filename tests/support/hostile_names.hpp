@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "support/hostile_cases.hpp"
+
 namespace support {
 
 /// Names of files that mean something in one of the languages that recoil writes: shell, GNU
-/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, CSV, terminals. What runs in
-/// them makes a file PWNED.
+/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, CSV, terminals. What runs in them makes
+/// a file PWNED. Each call counts them as tried once more.
 inline const std::vector<std::string>& hostile_names() {
   static const std::vector<std::string> names = {
       "$(touch PWNED)",
@@ -57,6 +59,7 @@ inline const std::vector<std::string>& hostile_names() {
       "\xff\xfe",
       "\xc3",
       "ünï – ☃"};
+  count_hostile_cases(names.size());
   return names;
 }
 

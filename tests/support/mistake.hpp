@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "support/hostile_cases.hpp"
 
 namespace support {
 
@@ -26,6 +27,7 @@ std::optional<recoil::InputError> error_of(const Action& action) {
   try {
     action();
   } catch (const recoil::InputError& error) {
+    count_hostile_cases();
     return error;
   }
   return std::nullopt;

@@ -261,11 +261,9 @@ class Dataset:
 
     def save(self, folder: PathLike) -> None:
         """Writes the dataset as a folder that ``recoil check`` reads."""
-        target = Path(folder)
-        target.mkdir(parents=True, exist_ok=True)
-        (target / self._package["resources"][0]["path"]).write_text(self._csv, encoding="utf-8")
+        points = Path(folder) / self._package["resources"][0]["path"]
         package = json.dumps(self._package, indent=2, ensure_ascii=False) + "\n"
-        (target / "datapackage.json").write_text(package, encoding="utf-8")
+        _recoil.write_whole_files([(points, self._csv), (Path(folder) / "datapackage.json", package)])
 
     @property
     def units(self) -> dict[str, str]:

@@ -1,11 +1,14 @@
 """The compiled part of recoil. Use the package; this may change."""
 
+from pathlib import Path
 from typing import Optional
 
 import numpy as np
 import numpy.typing as npt
 
 __version__: str
+
+def write_whole_files(files: list[tuple[Path, str]]) -> None: ...
 
 class Dataset:
     @property

@@ -7,7 +7,6 @@ import html
 import io
 import math
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
@@ -92,25 +91,6 @@ class _WithPictures(_Result):
         if name not in self.pictures:
             raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
         return self._pictures.svg(name)
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Writes beside ``path`` and renames: a reader sees the old file or the new one, with the
-    permissions of the old one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path = path.resolve()
-    mask = os.umask(0)
-    os.umask(mask)
-    mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask
-    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=path.name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
-            file.write(text)
-        os.chmod(beside, mode)
-        os.replace(beside, path)
-    except BaseException:
-        os.unlink(beside)
-        raise
 
 
 def _numbers(values: list[Optional[float]]) -> Array:
@@ -267,12 +247,12 @@ class FitResult(_WithPictures):
     def save(self, folder: PathLike) -> Path:
         """Writes ``folder``/fit.json, and returns its path."""
         path = Path(folder) / "fit.json"
-        write_whole(path, self._json)
+        _recoil.write_whole_files([(path, self._json)])
         return path
 
     def save_page(self, file: PathLike) -> None:
         """Writes the page of ``recoil report``: one HTML file with its pictures."""
-        write_whole(Path(file), self._analysis.page())
+        _recoil.write_whole_files([(Path(file), self._analysis.page())])
 
     def plot(
         self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = ""
@@ -479,9 +459,8 @@ class Diagnosis(_WithPictures):
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
         ``folder``, and returns the path of the first."""
         path = Path(folder) / "diagnosis.json"
-        write_whole(Path(folder) / "extended.toml",
-                    self._diagnosis.extended_toml(os.fspath(folder)))
-        write_whole(path, self._json)
+        extended = self._diagnosis.extended_toml(os.fspath(folder))
+        _recoil.write_whole_files([(path.with_name("extended.toml"), extended), (path, self._json)])
         return path
 
     def __repr__(self) -> str:
@@ -544,7 +523,7 @@ class Pairing(_Result):
     def save(self, file: PathLike) -> Path:
         """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path."""
         path = Path(file)
-        write_whole(path, self._points)
+        _recoil.write_whole_files([(path, self._points)])
         return path
 
     def __repr__(self) -> str:

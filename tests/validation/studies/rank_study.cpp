@@ -293,7 +293,6 @@ plot::Picture rank_picture(const RankStudy& study) {
   picture.title = "Ranks of the truth among draws of the posterior";
   picture.width = 900;
   picture.height = 700;
-  picture.key.place = plot::KeyPlace::below;
   const RankBand band = rank_band(study.sets);
   std::vector<double> x;
   for (int i = 0; i < rank_draws; ++i) x.push_back((i + 1.0) / (rank_draws + 1));
@@ -304,8 +303,9 @@ plot::Picture rank_picture(const RankStudy& study) {
   for (std::size_t a = 0; a < rank_arms.size(); ++a) {
     plot::Plot& panel = picture.plots.emplace_back();
     const double left = a % 2 == 0 ? 80.0 : 540.0;
-    const double bottom = a < 2 ? 390.0 : 90.0;
-    panel.frame = plot::Frame{left, left + 340.0, bottom, bottom + 210.0};
+    const double bottom = a < 2 ? 440.0 : 100.0;
+    panel.frame = plot::Frame{left, left + 340.0, bottom, bottom + 200.0};
+    panel.key = plot::KeyPlace::below;
     panel.heading = title_of(rank_arms[a]);
     panel.x = {"rank of the truth"};
     panel.y = {"share of ranks below, less the rank"};
