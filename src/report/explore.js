@@ -448,10 +448,9 @@ window.recoil = (() => {
     path.setAttribute("stroke", "#222222");
     path.setAttribute("stroke-width", "1.8");
     path.setAttribute("stroke-dasharray", "7 3 1.5 3");
-    // What the curves of the picture are clipped by is the rectangle of its axes.
-    const clip = svg.querySelector("clipPath");
-    const frame = clip.firstElementChild.getAttribute("d").match(/[\d.]+/g).map(Number);
-    path.setAttribute("clip-path", "url(#" + clip.id + ")");
+    path.setAttribute("fill", "none");
+    // The rectangle of the axes is what clips the picture's curves.
+    const frame = svg.querySelector("clipPath path").getAttribute("d").match(/[\d.]+/g).map(Number);
     const result = element("p", {className: "explored-result"});
     result.setAttribute("aria-live", "polite");
     let waiting = false;
