@@ -64,7 +64,8 @@ struct Figure {
   Sentence caption;   ///< what it shows, and what to look for; without one there is no frame
   std::string svg{};  ///< ready to inline; empty: not drawn yet
   plot::Picture picture{};
-  std::string csv{};  ///< its data; empty: those of `picture`
+  std::string csv{};       ///< its data; empty: those of `picture`
+  std::string explored{};  ///< JSON for `Document::script`, which makes controls of it
 };
 
 Figure figure_of(plot::Picture picture, Sentence caption);
@@ -134,9 +135,10 @@ struct Document {
   Sentence subtitle{};
   std::vector<Block> foreword{};  ///< above the contents
   std::vector<Section> sections{};
-  std::string foot{};  ///< who made it
-  bool cards = false;  ///< the sections stand side by side, without a list of contents
-  std::string name{};  ///< what the files that a reader saves from the page begin with
+  std::string foot{};    ///< who made it
+  bool cards = false;    ///< the sections stand side by side, without a list of contents
+  std::string name{};    ///< what the files that a reader saves from the page begin with
+  std::string script{};  ///< JavaScript of the page, beside that which saves pictures
 };
 
 /// Every figure of a section, those in subsections too.

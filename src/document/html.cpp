@@ -201,10 +201,11 @@ std::string data_html(std::string_view look, const std::string& json) {
   return fmt::format("<script type=\"application/json\" class=\"{}\">{}</script>\n", look, safe);
 }
 
-/// The data of the picture as a file, which the page's script saves.
+/// What the scripts of the page need: the data of the picture as a file, and what explores it.
 std::string data_of_figure(const Figure& figure) {
   const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
-  return csv.empty() ? "" : data_html("csv", json_line(csv));
+  return (csv.empty() ? "" : data_html("csv", json_line(csv))) +
+         (figure.explored.empty() ? "" : data_html("explore", figure.explored));
 }
 
 std::string figure_html(const Figure& figure) {
@@ -341,10 +342,11 @@ std::string html_page(const Document& document) {
   }
   if (!details.empty()) answer = "<div class=\"answer\">\n" + answer + "</div>\n";
   const std::string body = answer + details;
-  // Only of a page with pictures: nothing else can be saved.
+  // Only of a page with pictures: nothing else can be saved or explored.
   const bool pictures = body.find("<svg ") != std::string::npos;
   const std::string scripts =
-      pictures ? fmt::format("<script type=\"text/javascript\">\n{}</script>\n", save_script())
+      pictures ? fmt::format("<script type=\"text/javascript\">\n{}{}</script>\n", save_script(),
+                             document.script)
                : "";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

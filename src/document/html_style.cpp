@@ -55,6 +55,15 @@ figcaption { padding: .5rem .9rem .8rem; font-size: .88rem; line-height: 1.45;
   color: var(--quiet); border-top: 1px solid var(--line); }
 .save { margin: 0; padding: .3rem .9rem; font-size: .82rem; color: var(--quiet); max-width: none; }
 .save a { margin-right: .5rem; }
+.explore { padding: 0 .9rem .6rem; font-size: .88rem; }
+.explore .control { display: grid; grid-template-columns: 9.5rem 1fr 7rem;
+  gap: .1rem .7rem; align-items: center; margin: .3rem 0; }
+.explore input { width: 100%; min-width: 0; margin: 0; font: inherit; color: var(--ink);
+  accent-color: var(--accent); }
+.explore input[type=number] { background: var(--paper); border: 1px solid var(--line);
+  border-radius: .25rem; padding: .15rem .35rem; }
+.explore button { font: inherit; margin: .3rem 0 0; }
+.explored-result { margin: .5rem 0 0; }
 .wide { width: fit-content; max-width: 100%; overflow-x: auto; margin: .75rem 0 1.25rem; border: 1px solid var(--line);
   border-radius: .4rem; background: var(--card); }
 table { border-collapse: collapse; width: 100%; font-size: .93rem;
@@ -118,6 +127,8 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .stack td::before { content: attr(data-label); float: left; margin-right: 1rem;
     color: var(--quiet); }
   .stack td:empty, .stack td[data-label=""]::before { display: none; }
+  .explore .control { grid-template-columns: 1fr 7.5rem; }
+  .explore .control span { grid-column: 1 / -1; }
 }
 @media print {
   :root { --picture: #fff; --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
@@ -125,7 +136,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
     --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  nav, .skip, .save { display: none; }
+  nav, .skip, .save, .explore, .explored { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
   h3 { break-after: avoid; }

@@ -97,7 +97,7 @@ document.addEventListener("DOMContentLoaded", () => {
     const pdf = document.createElement("a");
     pdf.textContent = "PDF";
     pdf.title = name + ".pdf";
-    pdf.href = "#";
+    pdf.href = "data:,";
     pdf.addEventListener("click", event => {
       event.preventDefault();
       printPdf(svg, name);

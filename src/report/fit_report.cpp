@@ -350,6 +350,7 @@ Document fit_document(const Analysis& a, const Diagnosis* diagnosis,
   page.subtitle = page.sections.front().remark;
   page.foot = "recoil " + version();
   page.name = a.spec.id;
+  page.script = explore_script();
   page.sections.front().title = {};  // the heading of the page says it
   page.sections.front().remark = {};
   return page;

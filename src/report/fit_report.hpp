@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/analysis.hpp"
@@ -19,8 +20,13 @@ inline constexpr const char* mean_curve_words =
 /// of several datasets, by dataset.
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height);
 
-/// e against V of every diameter: points, fit and its band, two-point calibration, V*.
+/// e against V of every diameter: points, fit and its band, two-point calibration, V*; with what
+/// `explore_script` needs where it can compute the model.
 std::vector<Figure> restitution_figures(const Analysis& analysis);
+
+/// The JavaScript that explores these pictures (explore.js): controls of C_H, C_A, f0 or W and the
+/// diameter, the curve for them, its capture velocity and chi2.
+std::string_view explore_script();
 
 /// Weighted residuals against V, one picture per dataset.
 std::vector<Figure> residual_figures(const Analysis& analysis);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/json.hpp"
 #include "core/units.hpp"
 #include "estimate/model.hpp"
 #include "report/fit_report.hpp"
@@ -100,16 +101,110 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   return picture;
 }
 
+/// One point in how many is drawn.
+std::size_t drawn_every(const Panel& panel) { return panel.points.size() / most_panel_points + 1; }
+
 Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
   Sentence text = say("{} on {}: {} point{}.", diameter_sentence(panel.diameter),
                       short_name(analysis.datasets, panel.dataset), panel.points.size(),
                       panel.points.size() == 1 ? "" : "s");
-  const std::size_t drawn_every = panel.points.size() / most_panel_points + 1;
-  if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
+  if (drawn_every(panel) > 1) text += fmt::format(" One point in {} is drawn.", drawn_every(panel));
   if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
     text += fmt::format(" {}", mean_curve_words);
   }
   return text;
+}
+
+// ---- what the script of the page explores ------------------------------------------------------
+
+/// What the script reads of a point: names and values.
+const std::vector<std::pair<const char*, double (*)(const Observation&)>>& explored_values() {
+  using Point = const Observation&;
+  static const std::vector<std::pair<const char*, double (*)(Point)>> values = {
+      {"velocity", [](Point p) { return p.velocity; }},
+      {"diameter", [](Point p) { return p.diameter; }},
+      {"restitution", [](Point p) { return p.restitution; }},
+      {"sd", [](Point p) { return p.weights.sd; }},
+      {"censored", [](Point p) { return p.censored ? 1.0 : 0.0; }},
+      {"input_sd", [](Point p) { return p.weights.input_sd; }},
+      {"scatter", [](Point p) { return p.weights.scatter; }},
+      {"shift", [](Point p) { return p.weights.shift; }},
+      {"mean_sd", [](Point p) { return p.weights.mean_sd; }},
+      {"least", [](Point p) { return p.weights.scatter > 0.0 ? p.weights.peak.deviance : 0.0; }},
+      {"events", [](Point p) { return double(p.events); }},
+      {"captured", [](Point p) { return double(p.captured); }},
+      {"counted", [](Point p) { return p.counted ? 1.0 : 0.0; }}};
+  return values;
+}
+
+/// To nine digits, written as a quotient of whole numbers, so that its shortest text is short.
+double rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 8.0);
+  return unit < 1.0 ? std::round(value / unit) / std::round(1.0 / unit)
+                    : std::round(value / unit) * unit;
+}
+
+/// The points of a panel that are drawn: their chi2, rows of numbers and the names of the columns.
+/// A column of zeros is left out.
+void add_explored_points(const Analysis& analysis, const Panel& panel, Json& out) {
+  std::vector<const Observation*> drawn;
+  double chi2 = 0.0;
+  for (std::size_t k = 0; k < panel.points.size(); k += drawn_every(panel)) {
+    drawn.push_back(&analysis.fitted.data.points[panel.points[k]]);
+    chi2 += std::pow(analysis.fitted.residuals[panel.points[k]], 2);
+  }
+  out["chi2"] = number_or_null(chi2);
+  out["columns"] = Json::array();
+  out["points"] = Json(std::vector<Json>(drawn.size(), Json::array()));
+  for (const auto& column : explored_values()) {
+    const auto value = column.second;
+    if (std::all_of(drawn.begin(), drawn.end(),
+                    [&](const Observation* point) { return value(*point) == 0.0; })) {
+      continue;
+    }
+    out["columns"].push_back(column.first);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      out["points"][i].push_back(number_or_null(rounded(value(*drawn[i]))));
+    }
+  }
+}
+
+/// What `explore_script` needs, as JSON: law, materials and fitted values in SI units, the ranges
+/// of the axes, and the points drawn with their weights. Empty where it cannot compute the model:
+/// where mechanisms act, points average over sizes or have no e, or the surface is a sphere.
+std::string explored_panel(const Analysis& analysis, const Panel& panel, const plot::Plot& shown) {
+  const FitResult& fit = analysis.fitted;
+  const ImpactModel& model = fit.model;
+  const ContactProperties& contact = model.contacts[panel.dataset];
+  const auto& points = fit.data.points;
+  if (!model.chain.empty() || averages_over_sizes(model) || contact.surface_diameter > 0.0 ||
+      std::any_of(points.begin(), points.end(),
+                  [](const Observation& point) { return point.counts_only(); })) {
+    return "";
+  }
+  const ImpactConditions at = conditions_at(model, fit.theta, panel.dataset, panel.diameter, 1.0);
+  const ParameterSlot& adhesion = model.slots[model.slot_adhesion[panel.dataset]];
+  Json out = {{"law", to_string(model.adhesion)},
+              {"phase", to_string(model.phase)},
+              {"C_H", at.hertz_damping},
+              {"C_A", at.adhesion_damping},
+              {"adhesion", adhesion_value_under(model, fit.theta, panel.dataset)},
+              {"adhesion_name", adhesion.parameter->name},
+              {"adhesion_unit", adhesion.parameter->unit},
+              {"diameter", panel.diameter},
+              {"reference_diameter", contact.reference_diameter},
+              {"density", at.density},
+              {"stiffness", at.stiffness},
+              {"separation", at.separation},
+              {"velocities", {shown.x.from, shown.x.to}},
+              {"top", shown.y.to},
+              {"student", nullptr}};
+  if (const auto& student = fit.data.noise.student) {
+    out["student"] = {{"nu", student->dof}, {"unit", std::sqrt(student->calibration())}};
+  }
+  add_explored_points(analysis, panel, out);
+  return json_line(out);
 }
 
 // ---- residuals ---------------------------------------------------------------------------------
@@ -336,7 +431,9 @@ std::vector<Figure> restitution_figures(const Analysis& analysis) {
     plot::Picture picture =
         restitution_picture(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
     picture.name = fmt::format("restitution-{}", i + 1);
+    std::string explored = explored_panel(analysis, panels[i], picture.plots.front());
     figures.push_back(figure_of(std::move(picture), restitution_caption(analysis, panels[i])));
+    figures.back().explored = std::move(explored);
   }
   return figures;
 }

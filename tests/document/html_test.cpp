@@ -85,13 +85,17 @@ TEST(Html, ContentsListWhatIsThere) {
 
 TEST(Html, CarriesTheDataOfPicturesAsJsonWithoutMarkup) {
   Figure figure{"one", "", "A caption", "<svg viewBox=\"0 0 1 1\"></svg>"};
+  figure.explored = R"({"name":"</script>"})";
   figure.csv = "a</script><b>,\"c\"\n1,,,,,2,,3,&\n";
   Document document;
   document.name = "my \"fit\"";
+  document.script = "const mine = 1;\n";
   document.sections = {{"s", "S", {}, {Figures{{figure}}}}};
   const std::string page = html_page(document);
   EXPECT_THAT(page, HasSubstr("<script type=\"application/json\" class=\"csv\">\"a\\u003c/script>"
                               "\\u003cb>,\\\"c\\\"\\n1,,,,,2,,3,&\\n\"</script>"));
+  EXPECT_THAT(page, HasSubstr("class=\"explore\">{\"name\":\"\\u003c/script>\"}</script>"));
+  EXPECT_THAT(page, HasSubstr("const mine = 1;\n</script>\n</body>"));
   EXPECT_THAT(page, HasSubstr("<body data-name=\"my &quot;fit&quot;\">"));
 }
 
@@ -130,6 +134,7 @@ TEST(Html, HostileNamesAreTextAndNothingReachesTheNetwork) {
 
 TEST(Html, PageWithoutPicturesHasNoScript) {
   Document document;
+  document.script = "never();";
   document.sections = {{"s", "S", {}, {Paragraph{"words"}}}};
   EXPECT_THAT(html_page(document), Not(HasSubstr("<script")));
 }

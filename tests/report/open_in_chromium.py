@@ -86,7 +86,7 @@ INSPECT = r"""
       complaints.push('a table scrolls sideways: ' + box.innerText.slice(0, 60));
   }
   if (matchMedia('print').matches) {
-    for (const element of document.querySelectorAll('nav, .save')) {
+    for (const element of document.querySelectorAll('nav, .save, details.explore, .explored')) {
       if (element.getBoundingClientRect().height > 0)
         complaints.push('prints ' + element.tagName + ' ' + element.getAttribute('class'));
     }
@@ -100,7 +100,7 @@ INSPECT = r"""
         complaints.push('does not print where ' + link.getAttribute('href') + ' is');
     }
   }
-  const made = document.querySelectorAll('.save').length;
+  const made = document.querySelectorAll('.save, .explore:not(script)').length;
   return {complaints: [...new Set(complaints)], drawn, made, height: page.scrollHeight};
 })"""
 
