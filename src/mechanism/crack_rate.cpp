@@ -50,7 +50,7 @@ struct JkrOpening {
         deepest(sqrt(most)),
         touch(T(std::cbrt(8.0 / 3.0))),
         parted(T(std::cbrt(1.0 / 6.0))) {
-    elsewhere = undamped(parted) - positive_part(e.square, T(0.01 * value_of(speed)));
+    elsewhere = undamped(parted) - positive_part(e.square, 0.01 * speed);
   }
 
   T undamped(const JkrPlace<T>& at) const {
@@ -63,12 +63,14 @@ struct JkrOpening {
     const JkrPlace<T> at(sqrt(square_of_a));
     const T way = (deepest.approach - at.approach) / (deepest.approach - parted.approach);
     const T square = undamped(at) - elsewhere * way - taken;
-    const double width = 1e-4 * value_of(speed);
+    const T width = 1e-4 * speed;
     // v_c = |n'| / (dn / da), dn / da in units of length / sqrt(area).
     const T slope = at.slope * length / sqrt(area);
-    const T took = unit * exponential(exponent * (0.5 * logarithm(positive_part(square, T(width))) -
-                                                  logarithm(slope)));
-    return {took, -0.5 * value_of(exponent) * value_of(took) / std::hypot(value_of(square), width)};
+    const T took =
+        unit *
+        exponential(exponent * (0.5 * logarithm(positive_part(square, width)) - logarithm(slope)));
+    return {took, -0.5 * value_of(exponent) * value_of(took) /
+                      std::hypot(value_of(square), value_of(width))};
   }
 };
 
@@ -85,12 +87,15 @@ T opening_under_jkr(const Encounter<T>& e, const T& work, const T& k) {
     return 0.5 * std::numbers::pi * std::sin(std::numbers::pi * s);
   };
   const double width = plain.most - plain.pull;
-  const T sum = integrate_loss<T>(
-      [&](double s, double taken) -> RateOfLoss {
+  constexpr int steps = 12;
+  const T sum = integrate_loss<T, steps>(
+      [&](int node, double taken) -> RateOfLoss {
+        const double s = radau_place(node, steps);
         const auto [took, slope] = plain.rate(plain.pull + width * part(s), taken * plain.speed);
         return {took * width * stretch(s) / plain.speed, slope * width * stretch(s)};
       },
-      [&](double s, double taken) {
+      [&](int node, double taken) {
+        const double s = radau_place(node, steps);
         const T wide = full.most - full.pull;
         const T took = full.rate(full.pull + wide * part(s), taken * plain.speed).first;
         return took * wide * (stretch(s) / plain.speed);

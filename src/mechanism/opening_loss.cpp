@@ -19,6 +19,28 @@ double potential(double x, double beta) { return x * std::sqrt(x) * (0.4 * x - 2
 double potential_by_place(double x, double beta) { return std::sqrt(x) * (x - beta); }
 double potential_by_beta(double x) { return -2.0 / 3.0 * x * std::sqrt(x); }
 
+/// What a node is in: x = X cos^4(pi s / 2).
+struct Node {
+  double part;     ///< x / X
+  double stretch;  ///< |dx / ds| / X
+};
+
+template <int steps>
+const std::array<Node, 3 * steps>& nodes_of() {
+  static const std::array<Node, 3 * steps> nodes = [] {
+    std::array<Node, 3 * steps> made;
+    for (int k = 0; k < 3 * steps; ++k) {
+      const double angle = 0.5 * std::numbers::pi * radau_place(k, steps);
+      const double cosine = k + 1 == 3 * steps ? 0.0 : std::cos(angle);
+      const double cube = cosine * cosine * cosine;
+      made[static_cast<std::size_t>(k)] = {cube * cosine,
+                                           2.0 * std::numbers::pi * cube * std::sin(angle)};
+    }
+    return made;
+  }();
+  return nodes;
+}
+
 /// One phase between the deepest point X (s = 0) and x = 0 (s = 1): x = X cos^4(pi s / 2), in which
 /// u and the rates of all losses are smooth.
 struct Phase {
@@ -28,25 +50,22 @@ struct Phase {
   double deepest;
   bool opens = false;     ///< the opening takes energy, too
   Sloped elsewhere = {};  ///< energy that is lost evenly in x
+  double bottom = potential(deepest, g.beta);
 
   /// The energy lost per s where `lost` is what was lost since the deepest point.
-  RateOfLoss rate(double s, double lost, Sloped* sloped = nullptr) const {
-    const double angle = 0.5 * std::numbers::pi * s;
-    const double cosine = std::cos(angle);
-    const double cube = cosine * cosine * cosine;
-    const double part = cube * cosine;
-    const double stretch = 2.0 * std::numbers::pi * cube * std::sin(angle);
+  RateOfLoss rate(const Node& node, double lost, Sloped* sloped = nullptr) const {
+    const auto [part, stretch] = node;
     const double x = deepest * part;
     const double dx = deepest * stretch;
     if (sloped != nullptr) *sloped = stretch * elsewhere;
-    if (s == 1.0) return {0.0, 0.0};  // dx vanishes, and faster than u / x^(1/2) grows
+    if (stretch == 0.0) return {0.0, 0.0};  // faster than u / x^(1/2) grows
     const double gamma = gamma_acts ? g.gamma : 0.0;
     const double root = std::sqrt(x);
     const double square =
-        2.0 * (potential(deepest, g.beta) - potential(x, g.beta) + direction * lost);
+        2.0 * (bottom - x * root * (0.4 * x - 2.0 / 3.0 * g.beta) + direction * lost);
     // A captured sphere stops, and then nothing opens: u^2 is rounded off over this width.
     constexpr double width = 1e-4;
-    const double hypotenuse = std::hypot(square, width);
+    const double hypotenuse = std::sqrt(square * square + width * width);
     const double seen =
         square > 0.0 ? 0.5 * (square + hypotenuse) : 0.5 * width * width / (hypotenuse - square);
     const double u = std::sqrt(seen);
@@ -74,15 +93,21 @@ struct Phase {
   }
 
   /// The energy lost on the whole way.
+  template <int steps>
   Sloped loss() const {
-    return integrate_loss<Sloped>([&](double s, double lost) { return rate(s, lost); },
-                                  [&](double s, double lost) {
-                                    Sloped sloped;
-                                    rate(s, lost, &sloped);
-                                    return sloped;
-                                  });
+    const auto& nodes = nodes_of<steps>();
+    return integrate_loss<Sloped, steps>(
+        [&](int k, double lost) { return rate(nodes[static_cast<std::size_t>(k)], lost); },
+        [&](int k, double lost) {
+          Sloped sloped;
+          rate(nodes[static_cast<std::size_t>(k)], lost, &sloped);
+          return sloped;
+        });
   }
 };
+
+constexpr int in_steps = 4;
+constexpr int out_steps = 8;
 
 /// The deepest point X: 1/2 = U(X) + the loss on the way in. Newton's method.
 Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
@@ -92,11 +117,11 @@ Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
     change = (potential(deepest, g.beta) - 0.5) / potential_by_place(deepest, g.beta);
   }
   for (int step = 0;; ++step) {
-    const Sloped lost = Phase{g, 1.0, damps_both, deepest}.loss();
+    const Sloped lost = Phase{g, 1.0, damps_both, deepest}.loss<in_steps>();
     const double by_place = potential_by_place(deepest, g.beta) + lost.slope[by_deepest];
     const double change = (potential(deepest, g.beta) + lost.value - 0.5) / by_place;
     deepest = std::max(deepest - change, 0.1 * deepest);
-    if (std::abs(change) > 1e-8 * deepest && step < 30) continue;
+    if (std::abs(change) > 1e-8 * deepest && step < 8) continue;
     Sloped found = (-1.0 / by_place) * lost;
     found.value = deepest;
     found.slope[1] -= potential_by_beta(deepest) / by_place;
@@ -108,7 +133,7 @@ Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
 /// u^2 at x = 0 on the way out.
 Sloped square_out(const OpeningGroups& g, const Sloped& deepest, bool opens,
                   const Sloped& elsewhere) {
-  const Sloped lost = Phase{g, -1.0, true, deepest.value, opens, elsewhere}.loss();
+  const Sloped lost = Phase{g, -1.0, true, deepest.value, opens, elsewhere}.loss<out_steps>();
   Sloped square = -2.0 * lost;
   square.value += 2.0 * potential(deepest.value, g.beta);
   square.slope[1] += 2.0 * potential_by_beta(deepest.value);

@@ -14,17 +14,25 @@ struct RateOfLoss {
   double value, slope;
 };
 
+/// The place s of a node: there are three in each step.
+inline double radau_place(int node, int steps) {
+  const double root = std::sqrt(6.0);
+  const double within = node % 3 == 0   ? 0.1 * (4.0 - root)
+                        : node % 3 == 1 ? 0.1 * (4.0 + root)
+                                        : 1.0;
+  return (node / 3 + within) / steps;
+}
+
 /// y(1) of dy/ds = rate(s, y), y(0) = 0, by Radau IIA of order 5 (Hairer & Wanner 1996, Solving
-/// Ordinary Differential Equations II, table 5.6) in 12 equal steps. It is L-stable: a loss that
-/// makes a sphere creep is stiff.
-/// @param rate (s, y) -> RateOfLoss
-/// @param sloped (s, y) -> T, the rate with its slopes at a fixed y; not called where T is double
-template <class T, class Rate, class Sloped>
+/// Ordinary Differential Equations II, table 5.6) in equal steps. It is L-stable: a loss that makes
+/// a sphere creep is stiff.
+/// @param rate (node, y) -> RateOfLoss, at s = radau_place(node, steps)
+/// @param sloped (node, y) -> T, the rate with its slopes at a fixed y; not called where T is
+/// double
+template <class T, int steps, class Rate, class Sloped>
 T integrate_loss(const Rate& rate, const Sloped& sloped) {
-  constexpr int steps = 12;
   using Stages = Eigen::Vector3d;
   const double root = std::sqrt(6.0);
-  const std::array<double, 3> within = {0.1 * (4.0 - root), 0.1 * (4.0 + root), 1.0};
   Eigen::Matrix3d couplings;
   couplings << (88.0 - 7.0 * root) / 360.0, (296.0 - 169.0 * root) / 1800.0,
       (-2.0 + 3.0 * root) / 225.0,  //
@@ -35,14 +43,11 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
   T lost(0.0);
   double last_rate = 0.0;
   for (int step = 0; step < steps; ++step) {
-    const auto place = [&](int stage) {
-      return (step + within[static_cast<std::size_t>(stage)]) / steps;
-    };
     Stages slopes;
     const auto miss_at = [&](const Stages& trial) {
       Stages rates;
       for (int j = 0; j < 3; ++j) {
-        const RateOfLoss found = rate(place(j), trial(j));
+        const RateOfLoss found = rate(3 * step + j, trial(j));
         rates(j) = found.value;
         slopes(j) = found.slope;
       }
@@ -52,7 +57,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
     // Starts at the last rate.
     Stages at;
     for (int j = 0; j < 3; ++j) {
-      at(j) = value_of(lost) + within[static_cast<std::size_t>(j)] / steps * last_rate;
+      at(j) = value_of(lost) + radau_place(j, steps) * last_rate;
     }
     Stages miss = miss_at(at);
     Eigen::Matrix3d inverse;
@@ -75,7 +80,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
       inverse = (Eigen::Matrix3d::Identity() - couplings * slopes.asDiagonal()).inverse();
       add_slopes(next, inverse.row(2).sum(), lost);
       const Eigen::RowVector3d counted = inverse.row(2) * couplings;
-      for (int j = 0; j < 3; ++j) add_slopes(next, counted(j), sloped(place(j), at(j)));
+      for (int j = 0; j < 3; ++j) add_slopes(next, counted(j), sloped(3 * step + j, at(j)));
     }
     lost = next;
   }

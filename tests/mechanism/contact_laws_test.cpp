@@ -284,10 +284,10 @@ TEST(AdhesionLosses, SlowTheSphereThatTheyActOn) {
     };
     EXPECT_LT(at(1.0 - 1e-3), 0.0) << o.factor << " " << o.k;
     EXPECT_GT(at(1.0 + 1e-3), 0.0) << o.factor << " " << o.k;
-    EXPECT_NEAR(at(1.5), o.at_1_5, 1e-5) << o.factor << " " << o.k;
-    EXPECT_NEAR(at(4.0), o.at_4, 1e-5) << o.factor << " " << o.k;
+    EXPECT_NEAR(at(1.5), o.at_1_5, 2e-5) << o.factor << " " << o.k;
+    EXPECT_NEAR(at(4.0), o.at_4, 2e-5) << o.factor << " " << o.k;
     EXPECT_NEAR(one_point::ask(both, id, own, kDiameter, 4.0 * o.capture, base).square, o.both_at_4,
-                1e-5)
+                2e-5)
         << o.factor << " " << o.k;
   }
 }
@@ -310,7 +310,7 @@ TEST(CrackRate, IsTheIntegralOverTheOpeningContact) {
         0.0, pi / 2.0);
     EXPECT_NEAR((1.0 - square(kSoft, {"crack_rate"}, {3e-6 / kSoftWork, k}, kDiameter, V)) * 0.5 *
                     mass(kSoft, kDiameter) * V * V / work,
-                1.0, 1e-5)
+                1.0, 1e-4)
         << k;
   }
 }

@@ -75,7 +75,7 @@ TEST_P(Agreement, TheCatalogueTakesTheEffectUp) {
 // away: a parameter may be off by the factor given here while the shape of the effect is taken up.
 // rebound_truncation in the design `wall` is missing: one or two points of the largest spheres
 // carry all of it, and there the readings scatter by more than the tenth that the catalogue
-// assumes.
+// assumes. The exponent of the crack is fixed at 0.5 and the hidden one is between 0.4 and 0.6.
 INSTANTIATE_TEST_SUITE_P(
     Catalogue, Agreement,
     testing::Values(
@@ -84,8 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
         Pairing{"jkr_hysteresis", "wall", 0, 10.0, "jkr_factor", 1.0, false, 0.05, 0.1},
         Pairing{"adhesion_hysteresis", "wall", 0, 10.0, "hysteresis_factor", 1.0, false, 0.05, 0.1},
         Pairing{"adhesion_hysteresis", "li", 0, 10.0, "hysteresis_factor", 1.0, false, 0.05, 0.1},
-        Pairing{"crack_rate", "wall", 0, 10.0, "crack_factor", 1.0, false, 0.05, 0.1},
-        Pairing{"crack_rate", "li", 0, 10.0, "crack_factor", 1.0, false, 0.05, 0.1},
+        Pairing{"crack_rate", "wall", 0, 10.0, "crack_factor", 1.0, false, 0.2, 0.1},
+        Pairing{"crack_rate", "li", 0, 10.0, "crack_factor", 1.0, false, 0.2, 0.1},
         Pairing{"bulk_viscoelastic", "li", 0, 10.0, "bulk_relaxation", 1.0, false, 0.05, 0.1},
         Pairing{"plate_flexure", "li", 0, 10.0, "plate_mobility", 1.0, false, 0.6, 0.2},
         Pairing{"gas_film", "wall", 0, 10.0, "gas_pressure", 1.0, false, 0.25, 0.2},
