@@ -122,6 +122,7 @@ bool Foam::recoilRebound<CloudType>::correct
 
 constexpr const char* make_text = R"(#include "kinematicCloud.H"
 #include "basicKinematicCloud.H"
+#include "recoilRebound.H"
 
 makePatchInteractionModelType(recoilRebound, basicKinematicCloud);
 )";

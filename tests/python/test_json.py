@@ -59,12 +59,13 @@ def validator(name):
 @pytest.fixture
 def inputs(place, command):
     """The files that some of the commands need."""
-    head = 'dataset = "mine"\n[uncertainty]\nreplicates = 39\n'
+    head = 'dataset = "mine"\n[uncertainty]\nreplicates = 39\nown_design = false\n'
     (place / "maugis.toml").write_text(head + '[model]\nadhesion = "maugis"\n')
     (place / "posterior.toml").write_text(head + "posterior = true\n")
     (place / "fixed.toml").write_text(head + "[parameters]\nC_A = { free = false }\n")
     (place / "mechanism.toml").write_text(
         'dataset = "datasets/wall1990-molybdenum"\n[uncertainty]\nreplicates = 39\n'
+        'own_design = false\n'
         '[model]\nmechanisms = ["plastic_yield"]\n')
     (place / "sizes.csv").write_text("diameter,count\n2,5\n3,8\n4,2\n")
     package = json.loads((place / "mine/datapackage.json").read_text())
@@ -77,7 +78,7 @@ def inputs(place, command):
     rows = [r.split(",") for r in (place / "mine/points.csv").read_text().splitlines()]
     (place / "unstated/points.csv").write_text(
         "".join(",".join(r[:4] + r[5:]) + "\n" for r in rows))
-    (place / "unstated.toml").write_text('dataset = "unstated"\n[uncertainty]\nreplicates = 39\n')
+    (place / "unstated.toml").write_text('dataset = "unstated"\n[uncertainty]\nreplicates = 39\nown_design = false\n')
     for name, adhesion in (("one", "ring"), ("two", "jkr")):
         (place / f"{name}.toml").write_text(head + f'[model]\nadhesion = "{adhesion}"\n')
         (place / f"{name}.json").write_text(command("fit", f"{name}.toml", "--json").out)
