@@ -14,7 +14,6 @@
 #include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/diagnose.hpp"
 #include "report/comparison_report.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "export/files.hpp"
 #include "export/export_job.hpp"
+#include "export/files.hpp"
 
 namespace recoil {
 namespace {

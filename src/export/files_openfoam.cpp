@@ -1,5 +1,5 @@
-#include "export/files.hpp"
 #include "export/export_job.hpp"
+#include "export/files.hpp"
 
 namespace recoil {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "export/files.hpp"
 #include "export/export_job.hpp"
+#include "export/files.hpp"
 
 namespace recoil {
 namespace {

@@ -1,8 +1,9 @@
+#include "mechanism/encounter.hpp"
+
 #include <cmath>
 #include <numbers>
 
 #include "core/numerics.hpp"
-#include "mechanism/encounter.hpp"
 
 namespace recoil {
 namespace {

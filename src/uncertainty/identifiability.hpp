@@ -71,14 +71,14 @@ struct Identifiability {
   bool assessed() const { return !parameter.empty(); }
 };
 
-/// A parameter counts as well determined when its recommended interval exists and its standard error
-/// is below `widest_error` of the parameter's scale: the larger of its value and of what alone
-/// would make up the whole loss 1 - e^2 at the point that it moves most. That scale hardly depends
-/// on the luck of an estimate. Its value alone would, and so would asking whether the interval is
-/// clear of zero: both pick the data sets in which the parameter came out large, or in which the
-/// interval contains the truth more often than promised (reports/coverage-grid-*.md). A parameter
-/// so small that its interval begins at zero can therefore be well determined; it is then an upper
-/// limit.
+/// A parameter counts as well determined when its recommended interval exists and its standard
+/// error is below `widest_error` of the parameter's scale: the larger of its value and of what
+/// alone would make up the whole loss 1 - e^2 at the point that it moves most. That scale hardly
+/// depends on the luck of an estimate. Its value alone would, and so would asking whether the
+/// interval is clear of zero: both pick the data sets in which the parameter came out large, or in
+/// which the interval contains the truth more often than promised (reports/coverage-grid-*.md). A
+/// parameter so small that its interval begins at zero can therefore be well determined; it is then
+/// an upper limit.
 ///
 /// Where the noise is estimated, so is the error, and a lucky one must not make a parameter
 /// well determined: it is the upper 95 % limit of the error (chi-squared) that has to be below the

@@ -166,9 +166,9 @@ void resample_parametric(const ResamplingPlan& plan, std::span<const double> set
     const Observation& measured = plan.fitted->data.points[i];
     Observation& point = sample.points[i];
     if (measured.censored || point.censored) continue;
-    point.restitution = std::max(
-        0.0, point.restitution + measured.restitution -
-                 expected_restitution(measured, plan.fitted->prediction_squared[i]));
+    point.restitution =
+        std::max(0.0, point.restitution + measured.restitution -
+                          expected_restitution(measured, plan.fitted->prediction_squared[i]));
   }
 }
 

@@ -8,8 +8,8 @@
 namespace support {
 
 /// Names of files that mean something in one of the languages that recoil writes: shell, GNU
-/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, CSV, terminals. What runs in them makes
-/// a file PWNED. Each call counts them as tried once more.
+/// parallel, Slurm, Python, LAMMPS, C, OpenFOAM, HTML, URLs, CSV, terminals. What runs in them
+/// makes a file PWNED. Each call counts them as tried once more.
 inline const std::vector<std::string>& hostile_names() {
   static const std::vector<std::string> names = {
       "$(touch PWNED)",
