@@ -149,8 +149,9 @@ Sentence own_design_words(const Analysis& a, double below) {
   for (const OwnCoverage& row : a.own_design) {
     datasets = std::max(datasets, row.datasets);
     if (!(row.share() < below)) continue;
-    parts.push_back(say("{} of {} contained the truth in {}", parts.empty() ? "interval" : "that",
-                        row.quantity, percent(row.share())));
+    parts.push_back(
+        say(parts.empty() ? "interval of {} contained the truth in {}" : "that of {} in {}",
+            symbol(row.quantity), percent(row.share())));
   }
   if (parts.empty()) return {};
   return say("In {} simulated data sets like this one the {} {}.", datasets,
