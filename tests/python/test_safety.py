@@ -103,8 +103,11 @@ def test_a_thread_that_fits_at_exit_takes_nothing_down(here):
 def test_every_file_is_saved_by_the_safe_writer(here):
     """Through a link, with the old permissions, whole or not at all, and with nothing beside it."""
     fit, dataset = recoil.fit("mine.toml", replicates=0), recoil.load_dataset("mine")
-    for name, save in (("fit.json", fit.save), ("points.csv", dataset.save),
-                       ("datapackage.json", dataset.save)):
+    def replace(folder):
+        dataset.save(folder, replace=True)
+
+    for name, save in (("fit.json", fit.save), ("points.csv", replace),
+                       ("datapackage.json", replace)):
         (here / "kept").mkdir()
         (here / "kept" / name).write_text("old")
         (here / "kept" / name).chmod(0o600)
@@ -121,8 +124,15 @@ def test_every_file_is_saved_by_the_safe_writer(here):
     (here / "out" / "datapackage.json").mkdir(parents=True)
     (here / "out" / "points.csv").write_text("old")
     with pytest.raises(recoil.InputError, match="datapackage.json"):
-        dataset.save("out")
+        dataset.save("out", replace=True)
     assert (here / "out" / "points.csv").read_text() == "old"
+
+
+def test_data_that_are_there_are_kept(here):
+    points = (here / "mine" / "points.csv").read_text()
+    with pytest.raises(recoil.InputError, match="points.csv is there; .* replace=True"):
+        recoil.load_dataset("mine").save("mine")
+    assert (here / "mine" / "points.csv").read_text() == points
 
 
 def test_the_locale_of_the_process_changes_no_byte(here, tmp_path):

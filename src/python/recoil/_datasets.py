@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
-from ._errors import InputError, refuse
+from ._errors import InputError, refuse, refuse_to_replace
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -259,9 +259,14 @@ class Dataset:
         frame.attrs["units"] = self.units
         return frame
 
-    def save(self, folder: PathLike) -> None:
-        """Writes the dataset as a folder that ``recoil check`` reads."""
+    def save(self, folder: PathLike, *, replace: bool = False) -> None:
+        """Writes the dataset as a folder that ``recoil check`` reads.
+
+        One that is there is kept, unless ``replace`` is true.
+        """
         points = Path(folder) / self._package["resources"][0]["path"]
+        if not replace:
+            refuse_to_replace(points, Path(folder) / "datapackage.json")
         package = json.dumps(self._package, indent=2, ensure_ascii=False) + "\n"
         _recoil.write_whole_files([(points, self._csv), (Path(folder) / "datapackage.json", package)])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, NoReturn
 
 
@@ -56,6 +57,13 @@ class ComputationError(RuntimeError):
 def refuse(problem: str, suggestion: str) -> NoReturn:
     """Raises ``InputError`` for an argument."""
     raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+
+
+def refuse_to_replace(*files: Path) -> None:
+    """Refuses files that are there: data may be all that is left of an experiment."""
+    for file in files:
+        if file.exists():
+            refuse(f"{file} is there", "name another place, or pass replace=True")
 
 
 def within(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
 from . import _recoil
-from ._errors import refuse, within
+from ._errors import refuse, refuse_to_replace, within
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
 
@@ -520,9 +520,14 @@ class Pairing(_Result):
 
         return pandas.read_csv(io.StringIO(csv))
 
-    def save(self, file: PathLike) -> Path:
-        """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path."""
+    def save(self, file: PathLike, *, replace: bool = False) -> Path:
+        """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path.
+
+        A file that is there is kept, unless ``replace`` is true.
+        """
         path = Path(file)
+        if not replace:
+            refuse_to_replace(path)
         _recoil.write_whole_files([(path, self._points)])
         return path
 
