@@ -53,9 +53,9 @@ C_A = { initial = 3e-2, bounds = [0, 10] }
 f0 = { free = false }
 [uncertainty]
 replicates = 39
-own_design = false
 level = 0.95
 seed = 1
+own_design = false
 )";
 
 }  // namespace
