@@ -138,7 +138,7 @@ std::vector<fs::path> outputs_of(const PairCommand& command) {
   return files;
 }
 
-void run_pair(PairCommand command) {
+void run_pair(const PairCommand& command) {
   require_ascending(command.arguments.size_edges);
   for (const std::string& folder : {command.into, command.histograms}) {
     if (!folder.empty()) require_writable_folder(folder);

@@ -20,7 +20,8 @@ inline double radau_place(int node, int steps) {
   const double within = node % 3 == 0   ? 0.1 * (4.0 - root)
                         : node % 3 == 1 ? 0.1 * (4.0 + root)
                                         : 1.0;
-  return (node / 3 + within) / steps;
+  const int step = node / 3;
+  return (step + within) / steps;
 }
 
 /// y(1) of dy/ds = rate(s, y), y(0) = 0, by Radau IIA of order 5 (Hairer & Wanner 1996, Solving

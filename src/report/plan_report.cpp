@@ -222,7 +222,7 @@ std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
   page.name = plan.fit;
   page.foot = "recoil " + version();
   page.sections = plan_sections(plan, assumed);
-  return html_page(std::move(page));
+  return html_page(page);
 }
 
 namespace {
