@@ -32,8 +32,8 @@ struct JkrPlace {
 /// sphere; there it is taken to keep the speed that it has then.
 template <class T>
 struct JkrOpening {
-  static constexpr double pull = 1.3103706971044482;      // a^2 at the greatest pull, (3/2)^(2/3)
-  static constexpr double parting = 0.30285343213868998;  // a^2 where dn / da = 0, 6^(-2/3)
+  static inline const double pull = std::pow(1.5, 2.0 / 3.0);      // a^2 at the greatest pull
+  static inline const double parting = std::pow(6.0, -2.0 / 3.0);  // a^2 where dn / da = 0
 
   T exponent, speed, length, area, strength, most, unit, elsewhere;
   JkrPlace<T> deepest, touch, parted;
