@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/files.hpp"
+#include "data/contact.hpp"
 #include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 #include "experiment/import_table.hpp"
@@ -215,6 +216,30 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   notes.push_back({ImportRemark::recipe_set_aside});
 }
 
+/// Is adhesion too weak to be seen in any point? Balls from 1 mm on whose adhesion takes less than
+/// 1e-6 of the energy of every impact: the work of separation of Johnson, Kendall & Roberts (1971),
+/// 7.09 (W^5 R^4 / E*^2)^(1/3), over m V^2 / 2, with W of Gilman's estimate. Stated adhesion stays.
+bool adhesion_is_unseen(const ImportRequest& request, const Json& system, const Dataset& dataset) {
+  constexpr double smallest_ball = 1e-3;  // [m]
+  constexpr double unseen = 1e-6;
+  if (request.adhesion_energy || system.contains("adhesion_energy") ||
+      system.contains("adhesion_force_f0") || system["particle"].contains("surface_energy") ||
+      system["surface"].contains("surface_energy")) {
+    return false;
+  }
+  return std::ranges::all_of(dataset.points, [&](const ImpactPoint& point) {
+    if (point.diameter < smallest_ball || point.all_captured()) return false;
+    const ContactProperties contact = derive_contact(dataset.system, point.diameter);
+    const auto [diameter, density] =
+        contact.as_one_sphere(point.diameter, dataset.system.particle.density);
+    const double modulus = 0.75 * contact.stiffness;
+    const double work = 7.09 * std::cbrt(std::pow(contact.adhesion_energy, 5) *
+                                         std::pow(0.5 * diameter, 4) / (modulus * modulus));
+    const double velocity = point.incident_velocity;
+    return work < unseen * 0.5 * sphere_mass(diameter, density) * velocity * velocity;
+  });
+}
+
 }  // namespace
 
 ImportResult import_points(const ImportRequest& request) {
@@ -224,7 +249,7 @@ ImportResult import_points(const ImportRequest& request) {
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   ImportResult result;
-  const Json system = imported_system(request, existing, result.notes);
+  Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported =
       read_points_of(request, system, existing ? existing->units : FieldUnits());
   settle_diameters(request, imported);
@@ -232,12 +257,19 @@ ImportResult import_points(const ImportRequest& request) {
 
   result.notes.insert(result.notes.begin(), imported.notes.begin(), imported.notes.end());
   const PointsText points = points_text(imported.points);
-  const std::string package = imported_package(request, system, points, existing, result.notes);
+  std::string package = imported_package(request, system, points, existing, result.notes);
   const fs::path points_file = request.into / (existing ? existing->points_path : "points.csv");
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);
   } catch (const InputError& error) {
     fail_in_source(error, request, points_file, imported.points);
+  }
+  if (adhesion_is_unseen(request, system, result.dataset)) {
+    system["adhesion_energy"] = 0.0;
+    std::vector<ImportNote> again;
+    package = imported_package(request, system, points, existing, again);
+    result.dataset = parse_dataset(package, points.csv, request.into);
+    result.notes.push_back({ImportRemark::adhesion_left_out});
   }
   if (existing && existing->provenance == Provenance::reconstruction &&
       result.dataset.provenance != Provenance::synthetic) {

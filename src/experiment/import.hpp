@@ -106,6 +106,7 @@ enum class ImportRemark {
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
   overrides_left_out,  ///< `left_out`: they contradict the materials
+  adhesion_left_out,   ///< nothing is stated of it, and it is too weak to change e of these balls
 };
 
 /// Launches from one stated height, if their first bounces were like their second ones.

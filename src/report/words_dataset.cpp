@@ -342,6 +342,9 @@ std::string note_sentence(const ImportNote& note) {
                          recipe_name, set_aside_recipe_name);
     case ImportRemark::overrides_left_out:
       return left_out_sentence(note.left_out);
+    case ImportRemark::adhesion_left_out:
+      return "adhesion is left out: it takes less than 1e-6 of the energy of every impact "
+             "(--adhesion-energy states it)";
   }
   return "";
 }

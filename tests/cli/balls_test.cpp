@@ -64,6 +64,29 @@ class Balls : public Workplace {
   Outcome imported;
 };
 
+/// 16 mm of glass (2500 kg/m3, 69 GPa) on concrete at 1.4 m/s and more: W = 2 sqrt(E1 E2) (1.3e-10
+/// m / pi)^2 / 2e-10 m = 0.8 J/m2 at most takes 7.09 (W^5 R^4 / E*^2)^(1/3) = 1e-10 J of 5e-3 J. A
+/// sphere of 20 um with the same V loses 1e-16 J of 1e-11 J.
+TEST(BallsByHand, HaveNoAdhesionThatIsTooWeakToBeSeen) {
+  const Workplace place;
+  place.write("heights.csv", heights());
+  const auto energy_of = [&](const std::string& diameter, const support::Words& more) {
+    const Outcome run = place.run(support::with(
+        {"import", "heights.csv", "--format", "heights", "--into", "ball", "--map",
+         "drop_height=h1:mm,rebound_height=h2:mm", "--diameter", diameter, "--ambient-pressure",
+         "0", "--particle", "glass", "--surface", "concrete", "--replace"},
+        more));
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ((run.out + run.err).find("adhesion is left out") != std::string::npos,
+              diameter == "16mm" && more.empty());
+    const auto package = nlohmann::json::parse(place.read("ball/datapackage.json"));
+    return package["recoil"].value("adhesion_energy", -1.0);
+  };
+  EXPECT_EQ(energy_of("20um", {}), -1.0);
+  EXPECT_EQ(energy_of("16mm", {"--adhesion-energy", "0.05"}), 0.05);
+  EXPECT_EQ(energy_of("16mm", {}), 0.0);
+}
+
 TEST(BallsByHand, AreImportedWithTheirHeightsAndWithoutWarnings) {
   const Balls balls;
   ASSERT_EQ(balls.imported.status, 0) << balls.imported.err;
