@@ -26,6 +26,7 @@ struct CoverageCell {
   int offered_identifiable = 0;  ///< the same where the verdict called it identifiable
   int held_identifiable = 0;
   double median_width = 0.0;  ///< [parameter's unit]
+  RECOIL_FIELDS(interval, offered, held, offered_identifiable, held_identifiable, median_width)
 };
 
 struct CoverageRow {
@@ -37,6 +38,7 @@ struct CoverageRow {
   /// that 68.27 % of the data sets keep [1].
   double actual_error = 0.0;
   std::vector<CoverageCell> cells;
+  RECOIL_FIELDS(parameter, unit, truth, identifiable, actual_error, cells)
 };
 
 /// Where the true parameters, and with them the simulated data, come from.
@@ -55,6 +57,7 @@ struct CoverageResult {
   int refits_failed = 0;  ///< bootstrap refits that failed, over all data sets
   TruthOrigin truth_origin = TruthOrigin::estimate;
   std::vector<CoverageRow> rows;
+  RECOIL_FIELDS(datasets, failed, refits_failed, truth_origin, rows)
 };
 
 struct CoverageOptions {

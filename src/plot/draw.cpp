@@ -186,28 +186,6 @@ std::string mark_look(const Marker& marker, double r, double width) {
                                 : pen(marker.colour, width);
 }
 
-/// The colour of a value on a scale.
-std::string colour_of(const ColourScale& scale, double value) {
-  const double first = scale.stops.front().first;
-  const double last = scale.stops.back().first;
-  const double at = std::clamp((value - scale.range.lower) / scale.range.width(), 0.0, 1.0);
-  const double place = first + (last - first) * at;
-  std::size_t k = 1;
-  while (k + 1 < scale.stops.size() && scale.stops[k].first < place) ++k;
-  const auto& [from, low] = scale.stops[k - 1];
-  const auto& [to, high] = scale.stops[k];
-  const double part = std::clamp((place - from) / (to - from), 0.0, 1.0);
-  std::string colour = "#";
-  for (std::size_t i = 1; i < 7; i += 2) {
-    const auto channel = [&](std::string_view one) {
-      return static_cast<double>(std::stoi(std::string(one.substr(i, 2)), nullptr, 16));
-    };
-    colour += fmt::format("{:02x}", static_cast<int>(std::lround((1.0 - part) * channel(low) +
-                                                                 part * channel(high))));
-  }
-  return colour;
-}
-
 // ---- axes --------------------------------------------------------------------------------------
 
 std::vector<Tick> ticks_of(const Axis& axis) {
@@ -563,6 +541,27 @@ class PlotWriter {
 };
 
 }  // namespace
+
+std::string colour_of(const ColourScale& scale, double value) {
+  const double first = scale.stops.front().first;
+  const double last = scale.stops.back().first;
+  const double at = std::clamp((value - scale.range.lower) / scale.range.width(), 0.0, 1.0);
+  const double place = first + (last - first) * at;
+  std::size_t k = 1;
+  while (k + 1 < scale.stops.size() && scale.stops[k].first < place) ++k;
+  const auto& [from, low] = scale.stops[k - 1];
+  const auto& [to, high] = scale.stops[k];
+  const double part = std::clamp((place - from) / (to - from), 0.0, 1.0);
+  std::string colour = "#";
+  for (std::size_t i = 1; i < 7; i += 2) {
+    const auto channel = [&](std::string_view one) {
+      return static_cast<double>(std::stoi(std::string(one.substr(i, 2)), nullptr, 16));
+    };
+    colour += fmt::format("{:02x}", static_cast<int>(std::lround((1.0 - part) * channel(low) +
+                                                                 part * channel(high))));
+  }
+  return colour;
+}
 
 std::string draw_svg(const Picture& picture) {
   const std::string title = escape_xml(picture.title);

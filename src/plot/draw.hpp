@@ -13,6 +13,9 @@ namespace recoil::plot {
 /// bytes.
 std::string draw_svg(const Picture& picture);
 
+/// The colour of a value on a scale [#rrggbb], that of the nearer end beyond it.
+std::string colour_of(const ColourScale& scale, double value);
+
 /// `text` as the content of an element or of an attribute, in XML as in HTML; control characters,
 /// which have no place there, become blanks.
 std::string escape_xml(std::string_view text);

@@ -63,7 +63,7 @@ TEST_F(PeerCase, HasFourDiametersOfFifteenVelocitiesAboveCapture) {
 
 /// The data come from GSL's integrator; this is another one.
 double restitution_by_cvodes(double diameter, double velocity) {
-  const RingAdhesionTruth nature = truth();
+  const Truth nature = truth();
   const double f0 = nature.adhesion_force * std::cbrt(diameter / nature.reference_diameter);
   const ImpactResult impact =
       simulate_impact(impact_groups({diameter, velocity, nature.density, nature.stiffness, f0,

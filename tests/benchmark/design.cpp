@@ -92,7 +92,7 @@ f0 = {{ initial = {}, free = true }}
 /// between its nodes, to about 1e-4. Enough where only the cost of a fit matters.
 class RestitutionTable {
  public:
-  RestitutionTable(const RingAdhesionTruth& nature, double diameter)
+  RestitutionTable(const Truth& nature, double diameter)
       : lowest_(std::log(lowest_velocity * true_capture_velocity(nature, diameter))),
         step_((std::log(highest_velocity) - lowest_) / (nodes - 1)) {
     for (int i = 0; i < nodes; ++i) {
@@ -143,8 +143,8 @@ FitSpec large_spec(int free_parameters) {
 
 }  // namespace
 
-RingAdhesionTruth truth() {
-  RingAdhesionTruth nature;
+Truth truth() {
+  Truth nature;
   nature.density = 1350.0;
   nature.stiffness = 1.789e9;
   nature.adhesion_force = 9.5;
@@ -198,7 +198,7 @@ Case large_case(std::size_t points, int free_parameters) {
     dataset.id = fmt::format("surface-{}", d + 1);
     dataset.provenance = Provenance::synthetic;
     dataset.system = materials();
-    RingAdhesionTruth nature = truth();
+    Truth nature = truth();
     nature.C_A *= 1.0 + 0.1 * static_cast<double>(d);
     for (const double diameter : diameters()) {
       dataset.series.push_back(fmt::format("{:.2f} um", diameter / units::um));

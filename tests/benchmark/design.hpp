@@ -10,7 +10,7 @@ namespace recoil::bench {
 
 /// Ammonium fluorescein on molybdenum, as nature has it in all synthetic data of the benchmark. The
 /// points come from the simulator of the reconstructions, which shares no code with the fitter.
-RingAdhesionTruth truth();
+Truth truth();
 
 /// The diameters of Wall et al. (1990) [m].
 const std::vector<double>& diameters();

@@ -186,7 +186,7 @@ class ImpactsOfManySpheres {
     double second = 0.0;
     for (int k = 0; k <= cells; ++k) {
       const double z = reach * (2.0 * k / cells - 1.0);
-      RingAdhesionTruth own = truth_;
+      Truth own = truth_;
       own.adhesion_force *= std::exp(-spread / 1.875 * z);  // V* ~ f0^(15/8)
       row.push_back(true_restitution(own, diameter, point.incident_velocity));
       if (row.back() == 0.0) continue;
@@ -211,7 +211,7 @@ class ImpactsOfManySpheres {
     return std::sqrt((1.0 - part) * a * a + part * b * b);
   }
 
-  RingAdhesionTruth truth_;
+  Truth truth_;
   double capture_velocity_ = 0.0;
   Dataset design_;
   std::vector<std::vector<double>> e_;

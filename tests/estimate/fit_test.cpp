@@ -207,7 +207,7 @@ TEST(CaptureVelocity, MatchesTheIndependentSimulator) {
   const std::vector<Dataset> datasets = {synthetic::dataset(design)};
   const ImpactModel model = make_model(synthetic::spec(), datasets);
   const std::vector<double> theta = {design.C_H, design.C_A, design.f0};
-  const RingAdhesionTruth truth = synthetic::truth_of(design);
+  const Truth truth = synthetic::truth_of(design);
   for (const double d : {2.58e-6, 4.9e-6, 6.89e-6}) {
     const CaptureVelocity found = capture_velocity(model, theta, 0, d);
     ASSERT_TRUE(found.found);

@@ -267,7 +267,7 @@ TEST(Materials, AreSharedByDatasetsWithTheSameBody) {
 Dataset measured(std::uint64_t seed) {
   Dataset data = uncertain_dataset();
   const ContactProperties contact = derive_contact(data.system, 4.9e-6);
-  RingAdhesionTruth truth = synthetic::truth_of({});
+  Truth truth = synthetic::truth_of({});
   truth.stiffness = contact.stiffness;
   truth.adhesion_force = contact.adhesion_force;
   RandomStream random(seed, RandomPurpose::coverage, 0);

@@ -100,7 +100,7 @@ TEST(MechanismFit, FindsTheRelaxationTimeOfTheBulk) {
 
 TEST(MechanismFit, EverySeriesHasItsOwnOffset) {
   const std::vector<double> offsets = {0.03, -0.02, 0.01};
-  RingAdhesionTruth truth;
+  Truth truth;
   truth.density = 1350.0;
   truth.stiffness = 1.789e9;
   truth.adhesion_force = 8.9;

@@ -11,7 +11,7 @@
 #include "estimate/fit_spec.hpp"
 #include "estimate/predictor.hpp"
 #include "support/synthetic.hpp"
-#include "validation/truth/ring_adhesion_truth.hpp"
+#include "validation/truth/impact_truth.hpp"
 
 namespace recoil {
 namespace {
@@ -32,15 +32,15 @@ double mass_of(double density, double size) {
 
 double true_restitution_of_two(double size, double velocity) {
   const double reference = 4.9e-6 * second_diameter / (2.0 * (4.9e-6 + second_diameter));
-  RingAdhesionContact contact;
+  TrueContact contact;
   contact.stiffness = 1.789e9;
   contact.radius = size * second_diameter / (2.0 * (size + second_diameter));
-  contact.adhesion_force = 8.9 * std::cbrt(contact.radius / reference);
+  contact.adhesion = 8.9 * std::cbrt(contact.radius / reference);
   contact.mass =
       1.0 / (1.0 / mass_of(1350.0, size) + 1.0 / mass_of(second_density, second_diameter));
   contact.C_H = 3e-3;
   contact.C_A = 0.03;
-  return ring_adhesion_impact(contact, velocity).restitution;
+  return true_impact(contact, velocity).restitution;
 }
 
 std::vector<double> truth_of(const ImpactModel& model) {

@@ -8,7 +8,7 @@
 
 #include "data/dataset.hpp"
 #include "experiment/pairing_files.hpp"
-#include "validation/studies/pairing_score.hpp"
+#include "validation/studies/pairing_study.hpp"
 #include "validation/synthetic/event_stream.hpp"
 
 namespace {

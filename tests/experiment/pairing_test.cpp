@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "experiment/flight.hpp"
-#include "validation/studies/pairing_score.hpp"
+#include "validation/studies/pairing_study.hpp"
 #include "validation/synthetic/event_stream.hpp"
 
 namespace {

@@ -29,7 +29,7 @@ TEST(Lookup, IsAsNearAsItSaysBetweenTheNodes) {
   ASSERT_TRUE(lookup.captures);
   EXPECT_LE(lookup.error, lookup_error);
   EXPECT_LE(lookup.capture_error, 1e-3);
-  RingAdhesionTruth truth = synthetic::truth_of({});  // by the other simulator
+  Truth truth = synthetic::truth_of({});  // by the other simulator
   for (const double d : {2.58e-6, 3.1e-6, 4.4e-6, 6.0e-6, 6.89e-6}) {
     for (const double v : {0.5, 1.3, 1.9, 3.3, 7.7, 21.0, 88.0}) {
       const double e = true_restitution(truth, d, v);

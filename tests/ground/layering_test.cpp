@@ -38,7 +38,7 @@ bool may_include(const std::string& from, const std::string& target) {
 /// The files of the recipes that bring a truth and the tool's pairing together: the points of a
 /// recipe may come from simulated passages.
 bool pairs_passages(const std::string& file) {
-  return file.starts_with("recipe/paired_points.") || file == "recipe/reconstruction.cpp";
+  return file.starts_with("recipe/reconstruction.");
 }
 
 /// May `from`, a path from tests/validation, include `target`, a path from src or from tests? Truth
@@ -47,7 +47,10 @@ bool may_validation_include(const std::string& from, const std::string& target) 
   const std::string folder = fs::path(from).begin()->string();
   const std::string to = fs::path(target).begin()->string();
   if (folder == "studies") return true;
-  if (folder == "synthetic") return to == "core" || target.starts_with("validation/synthetic/");
+  if (folder == "synthetic") {
+    return to == "core" || target.starts_with("validation/synthetic/") ||
+           target.starts_with("validation/truth/");
+  }
   if (target == "data/contact.hpp") return false;  // a recipe derives its contact by itself
   if (to == "core" || to == "data" || target.starts_with("validation/truth/")) return true;
   return folder == "recipe" &&
@@ -125,8 +128,8 @@ TEST(Layering, TheRuleItself) {
   EXPECT_FALSE(may_validation_include("truth/a.cpp", "impact/b.hpp"));
   EXPECT_FALSE(may_validation_include("recipe/a.cpp", "data/contact.hpp"));
   EXPECT_FALSE(may_validation_include("recipe/passages.cpp", "experiment/b.hpp"));
-  EXPECT_TRUE(may_validation_include("recipe/paired_points.cpp", "experiment/b.hpp"));
-  EXPECT_FALSE(may_validation_include("recipe/paired_points.cpp", "impact/b.hpp"));
+  EXPECT_TRUE(may_validation_include("recipe/reconstruction.cpp", "experiment/b.hpp"));
+  EXPECT_FALSE(may_validation_include("recipe/reconstruction.cpp", "impact/b.hpp"));
   EXPECT_FALSE(may_validation_include("synthetic/a.cpp", "impact/b.hpp"));
   EXPECT_FALSE(may_validation_include("synthetic/a.cpp", "validation/studies/b.hpp"));
   EXPECT_TRUE(may_validation_include("studies/a.cpp", "report/b.hpp"));

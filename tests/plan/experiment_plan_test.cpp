@@ -77,7 +77,7 @@ int points_of(const ExperimentPlan& plan) {
 class Laboratory {
  public:
   explicit Laboratory(const ExperimentPlan& plan) : plan_(plan) {
-    const recoil::RingAdhesionTruth truth = recoil::synthetic::truth_of(Design{});
+    const recoil::Truth truth = recoil::synthetic::truth_of(Design{});
     for (const double diameter : plan.options.diameters) {
       curves_.try_emplace(
           diameter, [&](double v) { return recoil::true_restitution(truth, diameter, v); },
@@ -201,7 +201,7 @@ TEST(ExperimentPlan, ItsErrorsAreThoseOfFitsWhereAllSpheresAreAlike) {
 /// of a 2 x 2 matrix. All impacts of a size are alike, so that captured ones tell nothing.
 double independent_sum(const std::vector<PlannedSetting>& settings, const PlanOptions& options) {
   const auto e_at = [](const PlannedSetting& at, double C_H, double C_A) {
-    recoil::RingAdhesionTruth truth = recoil::synthetic::truth_of(Design{});
+    recoil::Truth truth = recoil::synthetic::truth_of(Design{});
     truth.C_H *= C_H;
     truth.C_A *= C_A;
     return recoil::true_restitution(truth, at.diameter, at.velocity);

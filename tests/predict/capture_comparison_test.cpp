@@ -25,7 +25,7 @@ TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
   const recoil::ExactFit exact;
   const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   ASSERT_EQ(all.size(), 1U);
-  const recoil::RingAdhesionTruth ring = recoil::synthetic::truth_of(exact.design);
+  const recoil::Truth ring = recoil::synthetic::truth_of(exact.design);
   const CaptureCurve& ours = curve(all[0], CaptureModel::fit);
   EXPECT_TRUE(ours.lower.empty());
   for (std::size_t k = 0; k < all[0].diameter.size(); k += 6) {

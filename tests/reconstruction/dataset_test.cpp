@@ -6,9 +6,8 @@
 
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
-#include "validation/recipe/paired_points.hpp"
-#include "validation/recipe/plan.hpp"
 #include "validation/recipe/reconstruction.hpp"
+#include "validation/recipe/plan.hpp"
 
 namespace recoil {
 namespace {
@@ -81,11 +80,10 @@ TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
   EXPECT_EQ(system.surface.density, recipe.surface.density);
   EXPECT_EQ(system.surface.youngs_modulus, recipe.surface.youngs_modulus);
   EXPECT_EQ(system.surface.poisson_ratio, recipe.surface.poisson_ratio);
-  if (const auto* truth = std::get_if<RingAdhesionTruth>(&recipe.truth)) {
-    EXPECT_EQ(system.reference_diameter, truth->reference_diameter);
-    EXPECT_EQ(system.stiffness_K.value_or(truth->stiffness), truth->stiffness);
-    EXPECT_EQ(system.adhesion_force_f0.value_or(truth->adhesion_force), truth->adhesion_force);
-  }
+  const Truth& truth = recipe.truth;
+  EXPECT_EQ(system.reference_diameter, truth.reference_diameter);
+  EXPECT_EQ(system.stiffness_K.value_or(truth.stiffness), truth.stiffness);
+  EXPECT_EQ(system.adhesion_force_f0.value_or(truth.adhesion_force), truth.adhesion_force);
 }
 
 TEST(Reconstruction, TamperedPointsAreFound) {

@@ -16,12 +16,14 @@ namespace fs = std::filesystem;
 /// Diagnoses nothing, and leaves a misfit of 2 with whatever it fits.
 fs::path stand_in(const ScratchFolder& scratch) {
   const fs::path program = scratch.path() / "stand-in";
-  recoil::write_whole_file(program,
-                           "#!/bin/sh\n"
-                           "test \"$1\" = fit || exit 3\n"
-                           "while [ \"$1\" != --out ]; do shift; done\n"
-                           "mkdir -p \"$2\"\n"
-                           "echo '{\"goodness\": {\"chi2\": 4.0}}' >\"$2/fit.json\"\n");
+  recoil::write_whole_file(
+      program,
+      "#!/bin/sh\n"
+      "test \"$1\" = fit || exit 3\n"
+      "while [ \"$1\" != --out ]; do shift; done\n"
+      "mkdir -p \"$2\"\n"
+      "echo '{\"goodness\": {\"chi2\": 4.0}, \"parameters\": {}, \"residuals\": []}' "
+      ">\"$2/fit.json\"\n");
   fs::permissions(program, fs::perms::owner_all);
   return program;
 }

@@ -9,8 +9,8 @@ namespace recoil::one_size {
 
 inline constexpr double diameter = 4.9e-6;
 
-inline RingAdhesionTruth truth() {
-  RingAdhesionTruth truth;
+inline Truth truth() {
+  Truth truth;
   truth.density = 1350.0;
   truth.stiffness = 1.789e9;
   truth.adhesion_force = 8.9;

@@ -23,8 +23,8 @@ struct Design {
 };
 
 /// What the other simulator is given for it.
-inline RingAdhesionTruth truth_of(const Design& design) {
-  RingAdhesionTruth truth;
+inline Truth truth_of(const Design& design) {
+  Truth truth;
   truth.density = 1350.0;
   truth.stiffness = 1.789e9;
   truth.adhesion_force = design.f0;
@@ -43,7 +43,7 @@ inline Dataset dataset(const Design& design) {
   data.system.reference_diameter = 4.9e-6;
   data.system.stiffness_K = 1.789e9;
   data.system.adhesion_force_f0 = 8.9;
-  const RingAdhesionTruth truth = truth_of(design);
+  const Truth truth = truth_of(design);
   for (std::size_t s = 0; s < design.diameters.size(); ++s) {
     data.series.push_back(std::to_string(s));
     for (const double v : design.velocities) {

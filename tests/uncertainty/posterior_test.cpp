@@ -27,7 +27,7 @@ GridAnswer damping_on_a_grid(const Dataset& data, bool scale_known, double centr
       design.C_H = centre_H + reach * sd_H * i / half;
       design.C_A = centre_A + reach * sd_A * k / half;
       if (design.C_H < 0.0 || design.C_A < 0.0) continue;
-      const RingAdhesionTruth truth = synthetic::truth_of(design);
+      const Truth truth = synthetic::truth_of(design);
       double chi2 = 0.0;
       int n = 0;
       for (const ImpactPoint& point : data.points) {

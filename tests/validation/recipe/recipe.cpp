@@ -11,92 +11,105 @@
 #include "data/text.hpp"
 #include "validation/recipe/facts.hpp"
 #include "validation/recipe/plan.hpp"
-#include "validation/recipe/toml_table.hpp"
+#include "validation/recipe/toml_fields.hpp"
 
 namespace recoil {
 namespace {
 
-Material read_material(TomlTable table, bool needs_density) {
-  Material material;
-  material.name = table.text("material");
-  material.density =
-      needs_density ? table.positive("density") : table.optional_positive("density").value_or(0.0);
-  material.youngs_modulus = table.positive("youngs_modulus");
-  material.poisson_ratio = table.number("poisson_ratio");
-  if (!(material.poisson_ratio > -1.0 && material.poisson_ratio <= 0.5)) {
-    table.fail("poisson_ratio", fmt::format("poisson_ratio = {:g}", material.poisson_ratio),
-               "an isotropic solid has -1 < nu <= 0.5", "correct it");
-  }
-  material.surface_energy = table.optional_positive("surface_energy");
-  table.finish();
-  return material;
+struct MaterialTable {
+  std::string material;
+  std::optional<Positive> density;
+  Positive youngs_modulus;
+  double poisson_ratio = 0.0;
+  std::optional<Positive> surface_energy;
+  Location where;
+  RECOIL_FIELDS(material, density, youngs_modulus, poisson_ratio, surface_energy)
+};
+
+struct TruthTable {
+  std::string model;
+  std::optional<Positive> stiffness_K, adhesion_force_f0, C_A_exponent;
+  Positive reference_diameter;
+  NotNegative C_H, C_A;
+  std::string adhesion_damping_phase;
+  Location where;
+  RECOIL_FIELDS(model, stiffness_K, adhesion_force_f0, C_A_exponent, reference_diameter, C_H, C_A,
+                adhesion_damping_phase)
+};
+
+struct VelocityTable {
+  Positive from, to;
+  AtLeast<2> count;
+  RECOIL_FIELDS(from, to, count)
+};
+
+struct SeriesTable {
+  std::string name;
+  Positive diameter;
+  std::optional<VelocityTable> velocity;
+  std::optional<std::vector<Positive>> drop_heights;
+  Location where;
+  RECOIL_FIELDS(name, diameter, velocity, drop_heights)
+};
+
+struct RecipeTable {
+  AtLeast<0> seed;
+  std::optional<std::vector<std::string>> assumptions, siblings;
+  MaterialTable particle, surface;
+  TruthTable truth;
+  ImpactNoise noise;
+  std::optional<SizeDistribution> sizes;
+  std::optional<PassageDesign> passages;
+  std::optional<PairingDesign> pairing;
+  std::vector<SeriesTable> series;
+  std::vector<FactSpec> fact;
+  Location where;
+  RECOIL_FIELDS(seed, assumptions, siblings, particle, surface, truth, noise, sizes, passages,
+                pairing, series, fact)
+};
+
+void require(bool right, const Location& where, const std::string& problem, const std::string& why,
+             const std::string& suggestion) {
+  if (!right) throw InputError(where, problem, why, suggestion);
 }
 
-Truth read_ring_adhesion_truth(TomlTable& table, const Recipe& recipe) {
+Material material_of(const MaterialTable& table, bool needs_density) {
+  require(table.density || !needs_density, table.where, "the density is missing",
+          "the sphere's mass follows from it", "add it [kg/m3]");
+  require(table.poisson_ratio > -1.0 && table.poisson_ratio <= 0.5, table.where,
+          fmt::format("poisson_ratio = {:g}", table.poisson_ratio),
+          "an isotropic solid has -1 < nu <= 0.5", "correct it");
+  return {table.material, table.density.value_or(0.0), table.youngs_modulus, table.poisson_ratio,
+          table.surface_energy ? std::optional<double>(*table.surface_energy) : std::nullopt};
+}
+
+Truth truth_of(const TruthTable& table, const Recipe& recipe) {
+  require(table.model == "ring-adhesion", table.where,
+          fmt::format("unknown truth {}", quote(table.model)), "", "write \"ring-adhesion\"");
+  const std::string& phase = table.adhesion_damping_phase;
+  require(phase == "rebound" || phase == "both", table.where,
+          fmt::format("unknown phase {}", quote(phase)),
+          "adhesion is damped on rebound or in both phases", "write \"rebound\" or \"both\"");
   const DerivedContact derived = derive_recipe_contact(recipe.particle, recipe.surface);
-  RingAdhesionTruth truth;
+  Truth truth;
   truth.density = recipe.particle.density;
-  truth.stiffness = table.optional_positive("stiffness_K").value_or(derived.stiffness);
-  truth.reference_diameter = table.positive("reference_diameter");
-  truth.adhesion_force =
-      table.optional_positive("adhesion_force_f0")
-          .value_or(recipe_adhesion_force(truth.stiffness, derived.adhesion_energy,
-                                          truth.reference_diameter));
-  truth.C_H = table.not_negative("C_H");
-  truth.C_A = table.not_negative("C_A");
-  truth.C_A_exponent = table.optional_positive("C_A_exponent").value_or(0.0);
-  const std::string phase = table.text("adhesion_damping_phase");
-  if (phase != "rebound" && phase != "both") {
-    table.fail("adhesion_damping_phase", fmt::format("unknown phase {}", quote(phase)),
-               "adhesion is damped on rebound or in both phases", "write \"rebound\" or \"both\"");
-  }
+  truth.stiffness = table.stiffness_K.value_or(derived.stiffness);
+  truth.reference_diameter = table.reference_diameter;
+  truth.adhesion_force = table.adhesion_force_f0.value_or(Positive{
+      recipe_adhesion_force(truth.stiffness, derived.adhesion_energy, truth.reference_diameter)});
+  truth.C_H = table.C_H;
+  truth.C_A = table.C_A;
+  truth.C_A_exponent = table.C_A_exponent.value_or(0.0);
   truth.damped_in_both_phases = phase == "both";
   return truth;
 }
 
-Truth read_truth(TomlTable table, const Recipe& recipe) {
-  const std::string model = table.text("model");
-  if (model != "ring-adhesion") {
-    table.fail("model", fmt::format("unknown truth {}", quote(model)), "",
-               "write \"ring-adhesion\"");
-  }
-  Truth truth = read_ring_adhesion_truth(table, recipe);
-  table.finish();
-  return truth;
-}
-
-ImpactNoise read_noise(TomlTable table) {
-  ImpactNoise noise;
-  noise.relative = table.not_negative("relative");
-  noise.floor = table.not_negative("floor");
-  noise.events = static_cast<int>(table.whole("events", 1));
-  noise.decimals = static_cast<int>(table.whole("decimals", 1));
-  if (noise.relative == 0.0 && noise.floor == 0.0) {
-    table.fail("relative", "'relative' and 'floor' are both 0",
-               "a point without noise has no standard deviation", "give one of them a value");
-  }
-  if (noise.decimals > 9) {
-    table.fail("decimals", fmt::format("decimals = {}", noise.decimals), "at most 9 are printed",
-               "write 3");
-  }
-  table.finish();
-  return noise;
-}
-
-SizeDistribution read_sizes(TomlTable table) {
-  SizeDistribution sizes;
-  sizes.lower = table.positive("lower");
-  sizes.upper = table.positive("upper");
-  sizes.median = table.positive("median");
-  sizes.log_sd = table.positive("log_sd");
-  sizes.probe_height = table.not_negative("probe_height");
-  table.finish();
+void add_weights(SizeDistribution& sizes) {
   const long first = std::lround(sizes.lower / units::um);
   const long last = std::lround(sizes.upper / units::um);
-  if (first < 1 || last <= first || last > 10000) {
-    table.fail("upper", "'lower' and 'upper' do not hold whole micrometres from 1 to 10000", "",
-               "write both in metres, 'upper' above 'lower'");
-  }
+  require(first >= 1 && last > first && last <= 10000, sizes.where,
+          "'lower' and 'upper' do not hold whole micrometres from 1 to 10000", "",
+          "write both in metres, 'upper' above 'lower'");
   double total = 0.0;
   for (long d = first; d <= last; ++d) {
     const double diameter = static_cast<double>(d) * units::um;
@@ -106,134 +119,73 @@ SizeDistribution read_sizes(TomlTable table) {
     total += sizes.weights.back();
   }
   for (double& weight : sizes.weights) weight /= total;
-  return sizes;
-}
-
-PassageDesign read_passages(TomlTable table) {
-  PassageDesign design;
-  design.rate = table.positive("rate");
-  design.velocity_sd = table.not_negative("velocity_sd");
-  design.diameter_sd = table.not_negative("diameter_sd");
-  design.volume_sd = table.not_negative("volume_sd");
-  design.angle_sd = table.not_negative("angle_sd");
-  design.seen = table.positive("seen");
-  design.return_time = table.positive("return_time");
-  if (design.seen > 1.0) {
-    table.fail("seen", fmt::format("seen = {:g}", design.seen), "it is a share of all passages",
-               "write at most 1");
-  }
-  table.finish();
-  return design;
-}
-
-PairingDesign read_pairing(TomlTable table) {
-  PairingDesign design;
-  design.height = table.positive("height");
-  design.angle = table.positive("angle");
-  design.per_bin = static_cast<int>(table.whole("per_bin", 2));
-  table.finish();
-  return design;
 }
 
 /// A value with three significant digits, as a table prints it.
 double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
-std::vector<double> log_spaced(TomlTable table) {
-  const double from = table.positive("from");
-  const double to = table.positive("to");
-  const auto count = table.whole("count", 2);
-  table.finish();
-  if (!(to > from)) table.fail("to", "'to' is not above 'from'", "", "swap them");
-  std::vector<double> velocities;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(count - 1);
-    velocities.push_back(three_digits(from * std::pow(to / from, part)));
-  }
-  return velocities;
-}
-
-RecipeSeries read_series(TomlTable table) {
-  RecipeSeries series;
-  series.name = table.text("name");
-  series.diameter = table.positive("diameter");
-  if (series.name.find_first_of(",\"\n") != std::string::npos) {
-    table.fail("name",
-               fmt::format("the name {} has a comma, a quote or a line break", quote(series.name)),
-               "it becomes a cell of points.csv", "choose another");
-  }
-  const bool spaced = table.has("velocity");
-  if (spaced == table.has("drop_heights")) {
-    table.fail(spaced ? "drop_heights" : "velocity",
-               spaced ? "both 'velocity' and 'drop_heights' are given"
-                      : "neither 'velocity' nor 'drop_heights' is given",
-               "the velocities come from one of the two",
-               "give velocity = { from, to, count } or drop_heights = [..]");
-  }
-  if (spaced) {
-    series.velocities = log_spaced(table.table("velocity"));
+RecipeSeries series_of(const SeriesTable& table) {
+  require(table.name.find_first_of(",\"\n") == std::string::npos, table.where,
+          fmt::format("the name {} has a comma, a quote or a line break", quote(table.name)),
+          "it becomes a cell of points.csv", "choose another");
+  require(table.velocity.has_value() != table.drop_heights.has_value(), table.where,
+          fmt::format("{} 'velocity' and 'drop_heights' are given", table.velocity ? "both" : "no"),
+          "the velocities come from one of the two",
+          "give velocity = { from, to, count } or drop_heights = [..]");
+  RecipeSeries series{table.name, table.diameter, {}};
+  if (table.velocity) {
+    const auto& [from, to, count] = *table.velocity;
+    require(to > from, table.where, "'to' is not above 'from'", "", "swap them");
+    for (int i = 0; i < count; ++i) {
+      series.velocities.push_back(
+          three_digits(from * std::pow(to / from, i / static_cast<double>(count - 1))));
+    }
   } else {
-    const std::vector<double> heights = *table.optional_positives("drop_heights");
-    for (const double height : heights) {
+    for (const double height : *table.drop_heights) {
       series.velocities.push_back(three_digits(std::sqrt(2.0 * standard_gravity * height)));
     }
+    require(!series.velocities.empty(), table.where, "'drop_heights' is an empty list", "",
+            "write [1, 2]");
   }
-  table.finish();
   return series;
 }
 
-FactSpec read_fact(TomlTable table) {
-  FactSpec fact;
-  fact.id = table.text("id");
-  fact.statement = table.text("statement");
-  fact.source = table.text("source");
-  fact.where = table.where("id");
-  if (auto limits = table.optional_table("limits")) {
-    for (const std::string& key : limits->keys()) fact.limits[key] = limits->number(key);
-  }
-  table.finish();
-  require_known_fact(fact);
-  return fact;
-}
-
-std::vector<FactSpec> read_facts(TomlTable& root) {
-  std::vector<FactSpec> facts;
-  for (TomlTable& table : root.tables("fact")) {
-    facts.push_back(read_fact(std::move(table)));
-    const FactSpec& fact = facts.back();
+void require_facts(const std::vector<FactSpec>& facts) {
+  for (const FactSpec& fact : facts) {
+    require_known_fact(fact);
     const auto same = [&](const FactSpec& other) { return other.id == fact.id; };
-    if (std::count_if(facts.begin(), facts.end(), same) > 1) {
-      throw InputError(fact.where, fmt::format("the fact '{}' is given twice", fact.id),
-                       "each check has one set of limits", "remove one");
-    }
+    require(std::count_if(facts.begin(), facts.end(), same) == 1, fact.where,
+            fmt::format("the fact '{}' is given twice", fact.id),
+            "each check has one set of limits", "remove one");
   }
-  return facts;
 }
 
-void read_root(TomlTable& root, Recipe& recipe) {
-  recipe.seed = static_cast<std::uint64_t>(root.whole("seed", 0));
-  recipe.assumptions = root.optional_texts("assumptions").value_or(std::vector<std::string>{});
-  recipe.siblings = root.optional_texts("siblings").value_or(std::vector<std::string>{});
-  recipe.particle = read_material(root.table("particle"), true);
-  recipe.surface = read_material(root.table("surface"), false);
-  recipe.truth = read_truth(root.table("truth"), recipe);
-  recipe.noise = read_noise(root.table("noise"));
-  if (auto sizes = root.optional_table("sizes")) recipe.sizes = read_sizes(*sizes);
-  if (auto passages = root.optional_table("passages")) recipe.passages = read_passages(*passages);
-  if (auto pairing = root.optional_table("pairing")) {
-    if (!recipe.passages || !recipe.sizes) {
-      root.fail("pairing", "[pairing] without [passages] and [sizes]", "there is nothing to pair",
-                "add them");
-    }
-    recipe.pairing = read_pairing(*pairing);
-  }
-  for (TomlTable& table : root.tables("series")) {
-    recipe.series.push_back(read_series(std::move(table)));
-  }
-  if (recipe.series.empty()) {
-    root.fail("series", "there is no [[series]]", "there is nothing to make", "add one");
-  }
-  recipe.facts = read_facts(root);
-  root.finish();
+void take(RecipeTable table, Recipe& recipe) {
+  recipe.seed = static_cast<std::uint64_t>(int{table.seed});
+  recipe.assumptions = table.assumptions.value_or(std::vector<std::string>{});
+  recipe.siblings = table.siblings.value_or(std::vector<std::string>{});
+  recipe.particle = material_of(table.particle, true);
+  recipe.surface = material_of(table.surface, false);
+  recipe.truth = truth_of(table.truth, recipe);
+  recipe.noise = table.noise;
+  require(recipe.noise.relative > 0.0 || recipe.noise.floor > 0.0, recipe.noise.where,
+          "'relative' and 'floor' are both 0", "a point without noise has no standard deviation",
+          "give one of them a value");
+  require(recipe.noise.decimals <= 9, recipe.noise.where, "'decimals' is above 9",
+          "at most 9 are printed", "write 3");
+  recipe.sizes = std::move(table.sizes);
+  if (recipe.sizes) add_weights(*recipe.sizes);
+  recipe.passages = table.passages;
+  require(!recipe.passages || recipe.passages->seen <= 1.0, table.where, "'seen' is above 1",
+          "it is a share of all passages", "write at most 1");
+  recipe.pairing = table.pairing;
+  require(!recipe.pairing || (recipe.passages && recipe.sizes), table.where,
+          "[pairing] without [passages] and [sizes]", "there is nothing to pair", "add them");
+  for (const SeriesTable& series : table.series) recipe.series.push_back(series_of(series));
+  require(!recipe.series.empty(), table.where, "there is no [[series]]", "there is nothing to make",
+          "add one");
+  recipe.facts = std::move(table.fact);
+  require_facts(recipe.facts);
 }
 
 }  // namespace
@@ -261,9 +213,9 @@ Recipe load_recipe(const std::filesystem::path& folder, const std::string& name)
   const std::string file = recipe.file.string();
   const std::string text = read_text_file(recipe.file, 1024 * 1024);
   const TomlReader reader(file);
-  const toml::table parsed = reader.parse(text);
-  TomlTable root(parsed, reader, "the recipe");
-  read_root(root, recipe);
+  RecipeTable table;
+  read_toml(reader, reader.parse(text), "the recipe", table);
+  take(std::move(table), recipe);
   recipe.plan = make_plan(recipe);
   return recipe;
 }

@@ -8,10 +8,32 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "data/dataset.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {
+
+/// A number that reading refuses unless it is above zero.
+struct Positive {
+  Positive(double stated = 0.0) : value(stated) {}
+  double value;
+  operator double() const { return value; }
+};
+
+/// A number that reading refuses below zero.
+struct NotNegative {
+  NotNegative(double stated = 0.0) : value(stated) {}
+  double value;
+  operator double() const { return value; }
+};
+
+/// A whole number that reading refuses below `lowest`.
+template <int lowest>
+struct AtLeast {
+  int value = lowest;
+  operator int() const { return value; }
+};
 
 /// One series of the design: a size and the velocities at which it was thrown.
 struct RecipeSeries {
@@ -22,22 +44,26 @@ struct RecipeSeries {
 
 /// What one observed impact adds to the truth, and how many make a point.
 struct ImpactNoise {
-  double relative = 0.0;  ///< standard deviation of one event's e, as a part of e [1]
-  double floor = 0.0;     ///< a constant one, added in quadrature [1]
-  int events = 0;         ///< events that rebounded, per point
-  int decimals = 3;       ///< of e in points.csv; its standard deviation carries one more
+  NotNegative relative;  ///< standard deviation of one event's e, as a part of e [1]
+  NotNegative floor;     ///< a constant one, added in quadrature [1]
+  AtLeast<1> events;     ///< events that rebounded, per point
+  AtLeast<1> decimals;   ///< of e in points.csv; its standard deviation carries one more
+  Location where;
+  RECOIL_FIELDS(relative, floor, events, decimals)
 };
 
 /// Sizes drawn anew for every impact: a log-normal distribution, cut at both ends, on whole
 /// micrometres. Only impacts that rebound, fast enough to climb back to the measuring plane, count.
 struct SizeDistribution {
-  double lower = 0.0;             ///< [m]
-  double upper = 0.0;             ///< [m]
-  double median = 0.0;            ///< of the uncut distribution [m]
-  double log_sd = 0.0;            ///< standard deviation of ln d [1]
-  double probe_height = 0.0;      ///< of the measuring plane above the surface [m]
+  Positive lower;                 ///< [m]
+  Positive upper;                 ///< [m]
+  Positive median;                ///< of the uncut distribution [m]
+  Positive log_sd;                ///< standard deviation of ln d [1]
+  NotNegative probe_height;       ///< of the measuring plane above the surface [m]
   std::vector<double> diameters;  ///< the whole micrometres [m]
   std::vector<double> weights;    ///< their probabilities, sum 1
+  Location where;
+  RECOIL_FIELDS(lower, upper, median, log_sd, probe_height)
 
   double mean() const;  ///< d10 [m]
   /// Slowest rebound that is seen: sqrt(2 g h) [m/s].
@@ -46,20 +72,24 @@ struct SizeDistribution {
 
 /// What an instrument records of each impact, see `draw_passages`.
 struct PassageDesign {
-  double rate = 0.0;         ///< spheres released per second, at random times
-  double velocity_sd = 0.0;  ///< of one passage, relative [1]
-  double diameter_sd = 0.0;  ///< of one passage, relative [1]
-  double volume_sd = 0.0;    ///< of the height at which a passage is timed [m]
-  double angle_sd = 0.0;     ///< of the incidence to the normal [rad]
-  double seen = 1.0;         ///< part of the passages that is recorded [1]
-  double return_time = 0.0;  ///< a rebound comes back through the volume with exp(-t / this) [s]
+  Positive rate;            ///< spheres released per second, at random times
+  NotNegative velocity_sd;  ///< of one passage, relative [1]
+  NotNegative diameter_sd;  ///< of one passage, relative [1]
+  NotNegative volume_sd;    ///< of the height at which a passage is timed [m]
+  NotNegative angle_sd;     ///< of the incidence to the normal [rad]
+  Positive seen;            ///< part of the passages that is recorded [1]
+  Positive return_time;     ///< a rebound comes back through the volume with exp(-t / this) [s]
+  Location where;
+  RECOIL_FIELDS(rate, velocity_sd, diameter_sd, volume_sd, angle_sd, seen, return_time)
 };
 
 /// How points are made from these passages, as `recoil pair` understands it.
 struct PairingDesign {
-  double height = 0.0;  ///< first estimate of the measuring plane's height [m]
-  double angle = 0.0;   ///< rebounds within this of the normal are used [rad]
-  int per_bin = 0;      ///< impacts of one point, about
+  Positive height;     ///< first estimate of the measuring plane's height [m]
+  Positive angle;      ///< rebounds within this of the normal are used [rad]
+  AtLeast<2> per_bin;  ///< impacts of one point, about
+  Location where;
+  RECOIL_FIELDS(height, angle, per_bin)
 };
 
 /// A published fact that the reconstruction has to show, with the numbers that decide.
@@ -69,6 +99,7 @@ struct FactSpec {
   std::string source;
   std::map<std::string, double> limits;  ///< thresholds, SI
   Location where;
+  RECOIL_FIELDS(id, statement, source, limits)
 };
 
 /// One point of the design with its noiseless truth; what regenerating costs is only the noise.

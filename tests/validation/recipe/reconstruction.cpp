@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "core/files.hpp"
-#include "validation/recipe/paired_points.hpp"
+#include "experiment/pairing_files.hpp"
+#include "validation/recipe/passages.hpp"
 #include "validation/recipe/plan.hpp"
 
 namespace recoil {
@@ -78,6 +79,41 @@ std::string first_difference(const std::string& there, const std::string& made) 
 
 }  // namespace
 
+PassageTable recipe_passages(const Recipe& recipe, int times) {
+  const PassageFormat format = {
+      {{"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}},
+      {},
+      false};
+  return parse_passages(draw_passages(recipe, recipe.seed, times), "events.csv", "", format);
+}
+
+PairingOptions recipe_pairing(const Recipe& recipe) {
+  PairingOptions options;
+  options.height = recipe.pairing.value().height;
+  options.angle = recipe.pairing.value().angle;
+  return options;
+}
+
+AverageOptions recipe_averaging(const Recipe& recipe) {
+  AverageOptions options;
+  options.per_bin = static_cast<std::size_t>(recipe.pairing.value().per_bin);
+  options.mean_diameter = true;
+  return options;
+}
+
+PairedPoints pair_passages(const Recipe& recipe) {
+  const PassageTable table = recipe_passages(recipe);
+  const PairingResult pairs = pair_passages(table.passages, recipe_pairing(recipe));
+  const Averages averages = average(table.passages, table.series, pairs, recipe_averaging(recipe));
+  PairedPoints made;
+  made.csv = points_csv(averages);
+  for (const PointMean& point : averages.points) {
+    made.points.push_back({0, point.diameter, point.velocity, point.restitution,
+                           point.restitution_sd, static_cast<int>(point.rebounds)});
+  }
+  return made;
+}
+
 std::string generate_points(const Recipe& recipe, std::uint64_t seed) {
   return to_csv(recipe, draw_points(recipe, seed));
 }
@@ -99,12 +135,12 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
 }
 
 std::map<std::string, double> true_parameters(const Recipe& recipe) {
-  const auto* ring = std::get_if<RingAdhesionTruth>(&recipe.truth);
-  if (ring == nullptr || ring->C_A_exponent != 0.0) return {};
-  return {{"C_H", ring->C_H},
-          {"C_A", ring->C_A},
-          {"f0", ring->adhesion_force},
-          {"reference_diameter", ring->reference_diameter}};
+  const Truth& truth = recipe.truth;
+  if (truth.law != TrueAdhesion::ring || truth.C_A_exponent != 0.0) return {};
+  return {{"C_H", truth.C_H},
+          {"C_A", truth.C_A},
+          {"f0", truth.adhesion_force},
+          {"reference_diameter", truth.reference_diameter}};
 }
 
 bool ReconstructionResult::good() const {

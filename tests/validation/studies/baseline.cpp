@@ -3,59 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 
-#include "core/files.hpp"
-#include "core/json.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case_files.hpp"
 
 namespace hidden {
 namespace {
-
-namespace fs = std::filesystem;
-using recoil::Json;
-
-/// A fit of the built command with some mechanisms.
-struct PlainFit {
-  double aicc = std::numeric_limits<double>::infinity();
-  std::vector<double> predicted, residuals;            ///< e, and weighted [points]
-  std::vector<double> sd, log_velocity, log_diameter;  ///< [points]
-};
-
-PlainFit plain_fit(const fs::path& fit, const std::vector<std::string>& mechanisms,
-                   const fs::path& binary) {
-  std::string ids;
-  for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
-  std::string text = recoil::read_text_file(fit);
-  const std::string model = "[model]\n";
-  text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
-  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
-  recoil::write_whole_file(changed, text);
-  const fs::path out = fit.parent_path() / "out";
-  const ProgramRun run = run_program({binary.string(), "fit", changed.string(), "--replicates", "0",
-                                      "--threads", "1", "--out", out.string()});
-  PlainFit found;
-  if (run.status != 0) return found;
-  std::ifstream in(out / "fit.json");
-  const Json answer = Json::parse(in);
-  double k = 0.0;
-  for (const auto& [name, parameter] : answer.at("parameters").items()) {
-    if (parameter.at("free").get<bool>()) k += 1.0;
-  }
-  for (const Json& point : answer.at("residuals")) {
-    found.predicted.push_back(point.at("predicted"));
-    found.residuals.push_back(point.at("weighted_residual"));
-    found.sd.push_back(point.at("sd_used"));
-    found.log_velocity.push_back(std::log(point.at("incident_velocity").get<double>()));
-    found.log_diameter.push_back(std::log(point.at("diameter_um").get<double>()));
-  }
-  const auto n = static_cast<double>(found.residuals.size());
-  found.aicc = answer.at("goodness").at("chi2").get<double>() + 2.0 * k +
-               2.0 * k * (k + 1.0) / (n - k - 1.0);
-  return found;
-}
 
 /// Of numbers about their means; 0 where one does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -97,9 +50,9 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
   return best;
 }
 
-BaselineAnswers baseline_answers(const Case& made, const fs::path& binary) {
+BaselineAnswers baseline_answers(const Case& made, const std::filesystem::path& binary) {
   const ScratchFolder scratch;
-  const fs::path fit = write_case(made, scratch.path());
+  const std::filesystem::path fit = write_case(made, scratch.path());
   std::vector<std::string> catalogue;
   for (const HiddenEffect& effect : hidden_effects()) {
     if (effect.kind == EffectKind::physics || effect.kind == EffectKind::measurement) {

@@ -82,13 +82,6 @@ std::vector<GridDesign> coverage_grid() {
   return designs;
 }
 
-std::optional<GridDesign> grid_design(const std::string& name) {
-  for (const GridDesign& design : coverage_grid()) {
-    if (design.name() == name) return design;
-  }
-  return std::nullopt;
-}
-
 std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
   const auto has = [](const GridDesign& design, const std::string& word) {
     return fmt::format(" {} ", design.name()).find(fmt::format(" {} ", word)) != std::string::npos;

@@ -41,9 +41,6 @@ struct GridDesign {
 /// captures.
 std::vector<GridDesign> coverage_grid();
 
-/// The design of that name, if it is one of the grid.
-std::optional<GridDesign> grid_design(const std::string& name);
-
 /// The designs of the grid whose names have all these words ("n20", "near-capture", "captures").
 /// @throws InputError for a word of no design, and where no design has all of them
 std::vector<GridDesign> designs_named(const std::vector<std::string>& words);

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <functional>
 
 #include "report/words_dataset.hpp"
+#include "validation/studies/study_tables.hpp"
 
 namespace recoil {
 namespace {
@@ -16,70 +17,64 @@ namespace {
 constexpr std::array<const char*, 7> other_intervals = {
     "profile", "studentized", "bca", "percentile", "wald", "delta", "posterior"};
 
+using Columns = std::vector<StudyColumn<ParameterCoverage>>;
+
 Cell percent_cell(const std::optional<double>& share) {
   return share ? Cell(Sentence(fmt::format("{:.1f}", 100.0 * *share))) : Cell();
 }
 
-/// "V*" of "V*(4.9 um)".
-std::string family(const ParameterCoverage& row) {
-  return row.parameter.substr(0, row.parameter.find('('));
+Cell width_cell(const std::optional<double>& width) {
+  return width ? Cell(Number{*width, significant(3)}) : Cell();
+}
+
+/// A column for every kind of interval but the recommended one.
+void add_kinds(Columns& columns, const std::function<Cell(const IntervalCoverage&)>& cell) {
+  for (const char* kind : other_intervals) {
+    columns.push_back({kind, [kind, cell](const ParameterCoverage& row) {
+                         const IntervalCoverage* at = row.find(kind);
+                         return at == nullptr ? Cell(Sentence()) : cell(*at);
+                       }});
+  }
+}
+
+Table table_of(const std::vector<ParameterCoverage>& rows) {
+  using Row = const ParameterCoverage&;
+  Columns columns = {
+      {"design", [](Row row) { return word_cell(row.design); }, true},
+      {"parameter", [](Row row) { return Cell(symbol(row.parameter)); }, true},
+      {"well determined, %", [](Row row) { return percent_cell(row.share_identifiable()); }},
+      {"actual error, %", [](Row row) { return percent_cell(row.actual_error); }},
+      {"recommended, %", [](Row row) { return percent_cell(row.recommended().share()); }},
+      {"where well determined, %",
+       [](Row row) { return percent_cell(row.recommended().share_identifiable()); }}};
+  add_kinds(columns, [](const IntervalCoverage& at) { return percent_cell(at.share()); });
+  columns.push_back({"width / truth", [](Row row) { return width_cell(row.relative_width); }});
+  columns.push_back(
+      {"verdict", [](Row row) { return word_cell(to_string(verdict_of(row))); }, true});
+  return study_table(rows, columns);
+}
+
+/// Median widths of every kind of interval over the truth; empty where no row has more than that
+/// of the recommended one.
+Table widths_of(const std::vector<ParameterCoverage>& rows) {
+  using Row = const ParameterCoverage&;
+  const auto has_more = [](Row row) {
+    return std::any_of(row.intervals.begin(), row.intervals.end(), [](const auto& at) {
+      return at.first != "recommended" && at.second.relative_width;
+    });
+  };
+  if (std::none_of(rows.begin(), rows.end(), has_more)) return {};
+  Columns columns = {{"width / truth", [](Row row) { return word_cell(row.design); }, true},
+                     {"parameter", [](Row row) { return Cell(symbol(row.parameter)); }, true},
+                     {"recommended", [](Row row) { return width_cell(row.relative_width); }}};
+  add_kinds(columns, [](const IntervalCoverage& at) { return width_cell(at.relative_width); });
+  return study_table(rows, columns);
 }
 
 Sentence truth_words(TruthOrigin origin) {
   return origin == TruthOrigin::recipe
              ? "truth and noise from the recipe, another seed for each data set"
              : "the fit's own estimate as truth, simulated independently of the fitter";
-}
-
-Table table_of(const std::vector<ParameterCoverage>& rows) {
-  Table table;
-  table.columns = {{"design", {}, true}, {"parameter", {}, true}, {"well determined, %"},
-                   {"actual error, %"},  {"recommended, %"},      {"where well determined, %"}};
-  for (const char* kind : other_intervals) table.columns.push_back({kind});
-  table.columns.push_back({"width / truth"});
-  table.columns.push_back({"verdict", {}, true});
-  for (const ParameterCoverage& row : rows) {
-    std::vector<Cell> cells = {Sentence(row.design),
-                               symbol(row.parameter),
-                               percent_cell(row.share_identifiable()),
-                               percent_cell(row.actual_error),
-                               percent_cell(row.recommended().share()),
-                               percent_cell(row.recommended().share_identifiable())};
-    for (const char* kind : other_intervals) {
-      const IntervalCoverage* at = row.find(kind);
-      cells.push_back(at == nullptr ? Cell(Sentence()) : percent_cell(at->share()));
-    }
-    Cell width;
-    if (row.relative_width) width = Number{*row.relative_width, significant(3)};
-    cells.push_back(std::move(width));
-    cells.push_back(Sentence(to_string(verdict_of(row))));
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
-}
-
-/// Median widths of every kind of interval over the truth; nothing where no row has more than that
-/// of the recommended one.
-std::optional<Table> widths_of(const std::vector<ParameterCoverage>& rows) {
-  Table table;
-  table.columns = {{"width / truth", {}, true}, {"parameter", {}, true}, {"recommended"}};
-  for (const char* kind : other_intervals) table.columns.push_back({kind});
-  bool any = false;
-  for (const ParameterCoverage& row : rows) {
-    const auto width = [](const std::optional<double>& value) {
-      return value ? Cell(Number{*value, significant(3)}) : Cell();
-    };
-    std::vector<Cell> cells = {Sentence(row.design), symbol(row.parameter),
-                               width(row.relative_width)};
-    for (const char* kind : other_intervals) {
-      const IntervalCoverage* at = row.find(kind);
-      any = any || (at != nullptr && at->relative_width);
-      cells.push_back(at == nullptr ? Cell(Sentence()) : width(at->relative_width));
-    }
-    table.rows.push_back(std::move(cells));
-  }
-  if (!any) return std::nullopt;
-  return table;
 }
 
 Sentence tally_words(const CoverageTally& tally) {
@@ -175,33 +170,50 @@ bool worse(const ParameterCoverage& a, const ParameterCoverage& b) {
   return distance(a) > distance(b) + no_difference;
 }
 
-Cell words_or_dash(const std::vector<std::string>& words) {
-  return words.empty() ? Cell() : Cell(Sentence(fmt::format("{}", fmt::join(words, ", "))));
-}
+/// One design with what is known of it.
+struct GridRow {
+  GridDesign design;
+  int datasets = 0;
+  std::vector<const ParameterCoverage*> rows;
 
-std::vector<Cell> grid_row(const GridDesign& design, int datasets,
-                           const std::vector<const ParameterCoverage*>& rows) {
-  const ParameterCoverage& worst = worst_of(rows);
-  std::vector<std::string> warnings;
-  std::vector<std::string> misses;
-  for (const ParameterCoverage* row : rows) {
-    const CoverageVerdict verdict = verdict_of(*row);
-    if (is_warned(verdict)) warnings.push_back(family(*row));
-    if (is_miss(verdict)) misses.push_back(family(*row) + " " + to_string(verdict));
+  /// The parameters of which the verdict is so, with `words` of it.
+  Cell parameters(bool (*of)(CoverageVerdict), bool with_verdict, const char* none) const {
+    std::vector<std::string> list;
+    for (const ParameterCoverage* row : rows) {
+      const CoverageVerdict verdict = verdict_of(*row);
+      if (!of(verdict)) continue;
+      list.push_back(row->family() + (with_verdict ? " " + to_string(verdict) : ""));
+    }
+    if (list.empty()) return *none == '\0' ? Cell() : word_cell(none);
+    return word_cell(fmt::format("{}", fmt::join(list, ", ")));
   }
-  const auto percent_words = [](const std::optional<double>& share) {
-    return share ? fmt::format("{:.1f}", 100.0 * *share) : std::string("-");
-  };
-  return {Sentence(fmt::format("{}", design.points)),
-          Sentence(to_string(design.noise)),
-          Sentence(design.sd_stated ? "stated" : "estimated"),
-          Sentence(design.adhesion_free ? "free" : "fixed"),
-          design.captures ? Cell(Sentence("with")) : Cell(),
-          Sentence(fmt::format("{}", datasets)),
-          symbol(family(worst)) + say(": {}", Sentence(percent_words(worst.recommended().share()))),
-          Sentence(fmt::format("{:.0f}", 100.0 * (1.0 - worst.share_identifiable()))),
-          words_or_dash(warnings),
-          misses.empty() ? Cell(Sentence("nominal")) : words_or_dash(misses)};
+};
+
+Table grid_table(const std::vector<GridRow>& rows) {
+  using Row = const GridRow&;
+  return study_table<GridRow>(
+      rows,
+      {{"n", [](Row row) { return word_cell(fmt::format("{}", row.design.points)); }},
+       {"scatter", [](Row row) { return word_cell(to_string(row.design.noise)); }, true},
+       {"its size",
+        [](Row row) { return word_cell(row.design.sd_stated ? "stated" : "estimated"); }, true},
+       {"f0", [](Row row) { return word_cell(row.design.adhesion_free ? "free" : "fixed"); }, true},
+       {"captures", [](Row row) { return row.design.captures ? word_cell("with") : Cell(); }, true},
+       {"data sets", [](Row row) { return word_cell(fmt::format("{}", row.datasets)); }},
+       {"worst parameter: truth contained, %",
+        [](Row row) {
+          const ParameterCoverage& worst = worst_of(row.rows);
+          const Cell share = percent_cell(worst.recommended().share());
+          return Cell(symbol(worst.family()) + say(": {}", words_of_cell(share)));
+        },
+        true},
+       {"warned, %",
+        [](Row row) {
+          return word_cell(
+              fmt::format("{:.0f}", 100.0 * (1.0 - worst_of(row.rows).share_identifiable())));
+        }},
+       {"warned of", [](Row row) { return row.parameters(is_warned, false, ""); }, true},
+       {"verdict", [](Row row) { return row.parameters(is_miss, true, "nominal"); }, true}});
 }
 
 Sentence link_to(const CoverageStudy& study) {
@@ -211,33 +223,22 @@ Sentence link_to(const CoverageStudy& study) {
 Section grid_section(const std::vector<const CoverageStudy*>& studies, const std::string& picture) {
   List tallies;
   CoverageTally all;
-  std::map<std::string, std::pair<int, std::vector<const ParameterCoverage*>>> designs;
+  std::vector<GridRow> rows;
+  for (const GridDesign& design : coverage_grid()) rows.push_back({design, 0, {}});
   for (const CoverageStudy* study : studies) {
     tallies.entries.push_back(link_to(*study) + say(": {} data sets per design; {}.",
                                                     study->datasets,
                                                     tally_words(tally_of(study->rows))));
     for (const ParameterCoverage& row : study->rows) {
-      designs[row.design].first = study->datasets;
-      designs[row.design].second.push_back(&row);
       all.add(row);
+      for (GridRow& own : rows) {
+        if (own.design.name() != row.design) continue;
+        own.datasets = study->datasets;
+        own.rows.push_back(&row);
+      }
     }
   }
-  Table table;
-  table.columns = {{"n"},
-                   {"scatter", {}, true},
-                   {"its size", {}, true},
-                   {"f0", {}, true},
-                   {"captures", {}, true},
-                   {"data sets"},
-                   {"worst parameter: truth contained, %", {}, true},
-                   {"warned, %"},
-                   {"warned of", {}, true},
-                   {"verdict", {}, true}};
-  for (const GridDesign& design : coverage_grid()) {
-    const auto found = designs.find(design.name());
-    if (found == designs.end()) continue;
-    table.rows.push_back(grid_row(design, found->second.first, found->second.second));
-  }
+  std::erase_if(rows, [](const GridRow& row) { return row.rows.empty(); });
   Section section{"grid", "Other kinds of data"};
   section.blocks = {
       Paragraph{"One diameter, n points evenly in log V from just above the capture velocity (with "
@@ -252,7 +253,7 @@ Section grid_section(const std::vector<const CoverageStudy*>& studies, const std
     section.blocks.emplace_back(
         Figures{{{picture, "Coverage", "Coverage of the recommended intervals", "-"}}});
   }
-  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(grid_table(rows));
   return section;
 }
 
@@ -300,7 +301,7 @@ Document coverage_page(const CoverageStudy& study, const std::string& picture) {
     page.foreword.emplace_back(Figures{{{picture, "Coverage", "Coverage by kind of data", "-"}}});
   }
   page.foreword.emplace_back(table_of(study.rows));
-  if (auto widths = widths_of(study.rows)) page.foreword.emplace_back(std::move(*widths));
+  page.foreword.emplace_back(widths_of(study.rows));
   List sources;
   for (const CoverageStudy::Source& source : study.sources) {
     sources.entries.push_back(code(source.id) +

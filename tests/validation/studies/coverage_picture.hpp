@@ -21,7 +21,7 @@ plot::Picture coverage_picture(const std::vector<ParameterCoverage>& rows, doubl
 /// That of one study of a grid.
 plot::Picture coverage_picture(const CoverageStudy& study);
 
-/// The colour of a cell [#rrggbb]: `share` and `level` in [0, 1].
-std::string coverage_colour(double share, double level);
+/// The colours of the cells by the share of data sets [1].
+plot::ColourScale coverage_colours(double level);
 
 }  // namespace recoil

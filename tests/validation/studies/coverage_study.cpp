@@ -20,47 +20,18 @@ std::optional<double> ratio(int part, int whole) {
   return static_cast<double>(part) / whole;
 }
 
-Json kept_json(const CoverageResult& result) {
-  Json rows = Json::array();
-  for (const CoverageRow& row : result.rows) {
-    Json cells = Json::array();
-    for (const CoverageCell& c : row.cells) {
-      cells.push_back({c.interval, c.offered, c.held, c.offered_identifiable, c.held_identifiable,
-                       c.median_width});
-    }
-    rows.push_back({row.parameter, row.unit, row.truth, row.identifiable, row.actual_error, cells});
-  }
-  return {{"datasets", result.datasets},
-          {"failed", result.failed},
-          {"refits_failed", result.refits_failed},
-          {"truth", name_of(result.truth_origin)},
-          {"rows", rows}};
-}
-
-CoverageResult kept_result(const Json& json) {
-  CoverageResult result;
-  result.datasets = json.at("datasets");
-  result.failed = json.at("failed");
-  result.refits_failed = json.at("refits_failed");
-  read_json(json.at("truth"), result.truth_origin);
-  for (const Json& r : json.at("rows")) {
-    CoverageRow row{r[0], r[1], r[2], r[3], r[4], {}};
-    for (const Json& c : r[5]) row.cells.push_back({c[0], c[1], c[2], c[3], c[4], c[5]});
-    result.rows.push_back(std::move(row));
-  }
-  return result;
-}
-
 /// The result kept under `key`, or `measure` and keep it.
 template <class Measure>
 CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::string& key,
                                 const Measure& measure) {
   if (folder.empty()) return measure();
   const std::filesystem::path file = folder / (sha256_hex(key).substr(0, 16) + ".json");
-  if (std::filesystem::exists(file)) return kept_result(Json::parse(read_text_file(file)));
+  if (std::filesystem::exists(file)) {
+    return value_from<CoverageResult>(Json::parse(read_text_file(file)));
+  }
   CoverageResult result = measure();
   std::filesystem::create_directories(folder);
-  write_whole_file(file, kept_json(result).dump() + "\n");
+  write_whole_file(file, json_text(as_json(result, NonFinite::word)));
   return result;
 }
 

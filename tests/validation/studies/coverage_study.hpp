@@ -47,6 +47,7 @@ struct ParameterCoverage {
   /// @pre there is one, as in every row that a study makes
   const IntervalCoverage& recommended() const;
   double share_identifiable() const;  ///< of the usable data sets
+  std::string family() const { return parameter.substr(0, parameter.find('(')); }  ///< "V*"
 };
 
 /// How a row stands to what a 95 % interval promises, over all data sets.

@@ -133,22 +133,6 @@ Case without_noise(Case made) {
   return made;
 }
 
-double misfit_left(const fs::path& fit, const std::string& mechanism, const fs::path& binary) {
-  std::string text = recoil::read_text_file(fit);
-  if (!mechanism.empty()) {
-    const std::string model = "[model]\n";
-    text.insert(text.find(model) + model.size(), "mechanisms = [\"" + mechanism + "\"]\n");
-  }
-  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
-  recoil::write_whole_file(changed, text);
-  const fs::path out = fit.parent_path() / "out";
-  const ProgramRun run = run_program({binary.string(), "fit", changed.string(), "--replicates", "0",
-                                      "--threads", "1", "--out", out.string()});
-  if (run.status != 0) return std::numeric_limits<double>::infinity();
-  std::ifstream in(out / "fit.json");
-  return std::sqrt(Json::parse(in)["goodness"]["chi2"].get<double>());
-}
-
 namespace {
 
 /// Fits with a spread take a hundred times as long as others.
@@ -171,7 +155,7 @@ NearestRival nearest_rival(const Case& made, const fs::path& binary) {
     if (!in_catalogue || !worth_trying(effect.id, made.order.effects.front())) {
       continue;
     }
-    const double left = misfit_left(fit, std::string(effect.id), binary);
+    const double left = std::sqrt(plain_fit(fit, {std::string(effect.id)}, binary).chi2);
     if (left < closest.misfit) closest = {std::string(effect.id), left};
   }
   return closest;

@@ -77,11 +77,6 @@ NearestRival nearest_rival(const Case& made, const std::filesystem::path& binary
 /// The case with its noise taken away.
 Case without_noise(Case made);
 
-/// Misfit that `recoil fit` leaves of a written case with `mechanism` (or none, when empty), as a
-/// signal-to-noise; infinite when there is no fit.
-double misfit_left(const std::filesystem::path& fit, const std::string& mechanism,
-                   const std::filesystem::path& binary);
-
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);
 

@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/statistics.hpp"
+#include "validation/studies/study_tables.hpp"
 
 namespace hidden {
 namespace {
@@ -22,7 +25,10 @@ using recoil::say;
 using recoil::Section;
 using recoil::Sentence;
 using recoil::strong;
+using recoil::study_table;
+using recoil::StudyColumn;
 using recoil::Table;
+using recoil::word_cell;
 
 /// "83 % (73 to 91), 58 of 70": with the 95 % limits of the share.
 Sentence share(const Count& count) {
@@ -32,33 +38,32 @@ Sentence share(const Count& count) {
                      100.0 * limits.lower, 100.0 * limits.upper, count.k, count.n);
 }
 
+Sentence verdict_words(const Bar& bar, const Count& count) {
+  if (count.n == 0) return "not studied";
+  const double part = static_cast<double>(count.k) / count.n;
+  return (bar.at_least ? part >= bar.share : part <= bar.share) ? Sentence("reached")
+                                                                : strong("missed");
+}
+
 Table bars_table(const StudyTally& tally) {
-  Table table;
-  table.columns = {
-      {"bar", {}, true}, {"wanted"}, {"found (95 % interval)", {}, true}, {"verdict", {}, true}};
-  for (const Bar& bar : study_bars()) {
-    const Count count = tally.bar(bar.id);
-    const double part = count.n == 0 ? 0.0 : static_cast<double>(count.k) / count.n;
-    const bool reached = bar.at_least ? part >= bar.share : part <= bar.share;
-    table.rows.push_back(
-        {Sentence(bar.words),
-         Sentence(fmt::format("{} {:.0f} %", bar.at_least ? "≥" : "≤", 100.0 * bar.share)),
-         share(count),
-         count.n == 0 ? Sentence("not studied")
-         : reached    ? Sentence("reached")
-                      : strong("missed")});
-  }
-  return table;
+  return study_table<Bar>(
+      study_bars(),
+      {{"bar", [](const Bar& bar) { return word_cell(bar.words); }, true},
+       {"wanted",
+        [](const Bar& bar) {
+          return word_cell(fmt::format("{} {:.0f} %", bar.at_least ? "≥" : "≤", 100.0 * bar.share));
+        }},
+       {"found (95 % interval)", [&](const Bar& bar) { return share(tally.bar(bar.id)); }, true},
+       {"verdict", [&](const Bar& bar) { return verdict_words(bar, tally.bar(bar.id)); }, true}});
 }
 
 Table methods_table(const std::vector<MethodRow>& methods) {
-  Table table;
-  table.columns = {{"method", {}, true}, {"named"}, {"named or listed"}, {"wrong"}, {"alarms"}};
-  for (const MethodRow& row : methods) {
-    table.rows.push_back({Sentence(row.method), share(row.named), share(row.listed),
-                          share(row.wrong), share(row.alarms)});
-  }
-  return table;
+  return study_table<MethodRow>(
+      methods, {{"method", [](const MethodRow& row) { return word_cell(row.method); }, true},
+                {"named", [](const MethodRow& row) { return share(row.named); }},
+                {"named or listed", [](const MethodRow& row) { return share(row.listed); }},
+                {"wrong", [](const MethodRow& row) { return share(row.wrong); }},
+                {"alarms", [](const MethodRow& row) { return share(row.alarms); }}});
 }
 
 std::string listed(const std::map<std::string, int>& counts) {
@@ -80,62 +85,62 @@ constexpr std::array<MarkColumn, 9> mark_columns = {{{"named", Mark::named},
                                                      {"adequate", Mark::nothing},
                                                      {"no answer", Mark::failed}}};
 
+/// Number of data sets of each mark, as `cell` writes it.
+void add_marks(std::vector<StudyColumn<PowerRow>>& columns,
+               const std::function<Cell(const PowerRow&, int)>& cell) {
+  for (const auto& [heading, mark] : mark_columns) {
+    columns.push_back({heading, [cell, mark = mark](const PowerRow& row) {
+                         return cell(row, row.marked(mark));
+                       }});
+  }
+  columns.push_back({"n", [](const PowerRow& row) { return word_cell(std::to_string(row.n)); }});
+}
+
+Cell strength_cell(const PowerRow& row) {
+  return word_cell(fmt::format("{:g}", row.signal_to_noise));
+}
+
 /// All effects of an arm together: shares of the data sets of one strength.
 Table strength_table(const StudyTally& tally, Arm arm) {
-  std::map<double, std::map<std::string, int>> sums;
-  std::map<double, int> counts;
+  std::map<double, PowerRow> sums;
   for (const PowerRow& row : tally.powers) {
     if (row.arm != arm) continue;
-    for (const auto& [mark, count] : row.marks) sums[row.signal_to_noise][mark] += count;
-    counts[row.signal_to_noise] += row.n;
+    PowerRow& sum = sums[row.signal_to_noise];
+    sum.signal_to_noise = row.signal_to_noise;
+    sum.n += row.n;
+    for (const auto& [mark, count] : row.marks) sum.marks[mark] += count;
   }
-  Table table;
-  table.columns = {{"snr"}};
-  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
-  table.columns.push_back({"n"});
-  for (auto& [strength, sum] : sums) {
-    std::vector<Cell> cells = {Sentence(fmt::format("{:g}", strength))};
-    for (const MarkColumn& column : mark_columns) {
-      cells.push_back(Sentence(fmt::format(
-          "{:.0f} %", 100.0 * sum[recoil::to_string(column.second)] / counts[strength])));
-    }
-    cells.push_back(Sentence(std::to_string(counts[strength])));
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
+  std::vector<PowerRow> rows;
+  for (const auto& [strength, sum] : sums) rows.push_back(sum);
+  std::vector<StudyColumn<PowerRow>> columns = {{"snr", strength_cell}};
+  add_marks(columns, [](const PowerRow& row, int n) {
+    return word_cell(fmt::format("{:.0f} %", 100.0 * n / row.n));
+  });
+  return study_table(rows, columns);
 }
 
 Table power_table(const StudyTally& tally, Arm arm) {
-  Table table;
-  table.columns = {{"hidden", {}, true}, {"designs", {}, true}, {"snr"}};
-  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
-  table.columns.push_back({"n"});
-  for (const PowerRow& row : tally.powers) {
-    if (row.arm != arm) continue;
-    std::vector<Cell> cells = {Sentence(row.hidden), Sentence(listed(row.designs)),
-                               Sentence(fmt::format("{:g}", row.signal_to_noise))};
-    for (const MarkColumn& column : mark_columns) {
-      const int n = row.marked(column.second);
-      cells.push_back(n == 0 ? Cell(Sentence()) : Cell(Sentence(std::to_string(n))));
-    }
-    cells.push_back(Sentence(std::to_string(row.n)));
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
+  std::vector<PowerRow> rows = tally.powers;
+  std::erase_if(rows, [arm](const PowerRow& row) { return row.arm != arm; });
+  std::vector<StudyColumn<PowerRow>> columns = {
+      {"hidden", [](const PowerRow& row) { return word_cell(row.hidden); }, true},
+      {"designs", [](const PowerRow& row) { return word_cell(listed(row.designs)); }, true},
+      {"snr", strength_cell}};
+  add_marks(columns, [](const PowerRow&, int n) {
+    return n == 0 ? Cell(Sentence()) : word_cell(std::to_string(n));
+  });
+  return study_table(rows, columns);
 }
 
 Table rivals_table(const StudyTally& tally) {
-  Table table;
-  table.columns = {{"hidden", {}, true},
-                   {"snr"},
-                   {"nearest other cause", {}, true},
-                   {"misfit it leaves: least, median"}};
-  for (const RivalRow& row : tally.rivals) {
-    table.rows.push_back({Sentence(row.hidden), Sentence(fmt::format("{:g}", row.signal_to_noise)),
-                          Sentence(listed(row.rivals)),
-                          Sentence(fmt::format("{:.1f}, {:.1f}", row.least, row.median))});
-  }
-  return table;
+  using Row = const RivalRow&;
+  return study_table<RivalRow>(
+      tally.rivals,
+      {{"hidden", [](Row row) { return word_cell(row.hidden); }, true},
+       {"snr", [](Row row) { return word_cell(fmt::format("{:g}", row.signal_to_noise)); }},
+       {"nearest other cause", [](Row row) { return word_cell(listed(row.rivals)); }, true},
+       {"misfit it leaves: least, median",
+        [](Row row) { return word_cell(fmt::format("{:.1f}, {:.1f}", row.least, row.median)); }}});
 }
 
 Table confusion_table(const Confusion& confusion) {
@@ -153,30 +158,30 @@ Table confusion_table(const Confusion& confusion) {
 }
 
 Table alarms_table(const StudyTally& tally) {
-  Table table;
-  table.columns = {
-      {"design", {}, true}, {"verdict other than adequate", {}, true}, {"p below 5 %", {}, true}};
-  for (const AlarmRow& row : tally.alarms) {
-    table.rows.push_back({Sentence(row.design), share(row.alarms), share(row.low_p)});
-  }
-  return table;
+  using Row = const AlarmRow&;
+  return study_table<AlarmRow>(
+      tally.alarms,
+      {{"design", [](Row row) { return word_cell(row.design); }, true},
+       {"verdict other than adequate", [](Row row) { return share(row.alarms); }, true},
+       {"p below 5 %", [](Row row) { return share(row.low_p); }, true}});
 }
 
 Table unreached_table(const StudyTally& tally) {
-  Table table;
-  table.columns = {{"effect", {}, true},
-                   {"design", {}, true},
-                   {"data sets not made, by wanted snr", {}, true},
-                   {"largest snr met"}};
-  for (const UnreachedRow& row : tally.unreached) {
-    std::string list;
-    for (const auto& [strength, n] : row.not_made) {
-      list += fmt::format("{}{:g}: {}", list.empty() ? "" : ", ", strength, n);
-    }
-    table.rows.push_back({Sentence(row.hidden), Sentence(row.design), Sentence(list),
-                          Sentence(fmt::format("{:.1f}", row.largest))});
-  }
-  return table;
+  using Row = const UnreachedRow&;
+  return study_table<UnreachedRow>(
+      tally.unreached,
+      {{"effect", [](Row row) { return word_cell(row.hidden); }, true},
+       {"design", [](Row row) { return word_cell(row.design); }, true},
+       {"data sets not made, by wanted snr",
+        [](Row row) {
+          std::string list;
+          for (const auto& [strength, n] : row.not_made) {
+            list += fmt::format("{}{:g}: {}", list.empty() ? "" : ", ", strength, n);
+          }
+          return word_cell(list);
+        },
+        true},
+       {"largest snr met", [](Row row) { return word_cell(fmt::format("{:.1f}", row.largest)); }}});
 }
 
 Sentence careless_words(const StudyTally& tally) {
@@ -318,34 +323,19 @@ plot::Plot power_panel(const StudyTally& tally) {
 }
 
 plot::Plot heat_panel(const Confusion& c) {
-  plot::Plot panel;
+  plot::Plot panel = recoil::table_plot(c.rows, c.columns, 10.0);
   panel.frame = plot::Frame{0.50 * width, 0.91 * width, 0.30 * height, 0.92 * height};
   panel.heading = "Hidden (rows) and answered (columns), snr 10 and more";
-  panel.x.set_range({-0.5, static_cast<double>(c.columns.size()) - 0.5});
-  panel.y.set_range({static_cast<double>(c.rows.size()) - 0.5, -0.5});
-  for (plot::Axis* axis : {&panel.x, &panel.y}) {
-    axis->grid = false;
-    axis->tick_size = 10.0;
-  }
-  panel.x.upright = true;
-  for (const std::string& column : c.columns) {
-    panel.x.ticks.push_back({static_cast<double>(panel.x.ticks.size()), column});
-  }
-  plot::Boxes cells;
+  auto& cells = std::get<plot::Boxes>(panel.layers.front());
   for (std::size_t r = 0; r < c.rows.size(); ++r) {
-    const double row = static_cast<double>(r);
-    panel.y.ticks.push_back({row, c.rows[r]});
-    double sum = 0.0;
-    for (const int n : c.counts[r]) sum += n;
+    const double sum = std::accumulate(c.counts[r].begin(), c.counts[r].end(), 0.0);
     for (std::size_t k = 0; k < c.columns.size(); ++k) {
-      const double column = static_cast<double>(k);
-      cells.add(column - 0.5, column + 0.5, row - 0.5, row + 0.5);
-      cells.values.push_back(sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0);
+      recoil::add_cell(cells, r, k)
+          .values.push_back(sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0);
     }
   }
   panel.colours = plot::ColourScale{
       "", {0.0, 100.0}, {{0.0, "#ffffff"}, {0.01, "#e8f1f8"}, {1.0, plot::blue}}, " %"};
-  panel.layers = {std::move(cells)};
   return panel;
 }
 

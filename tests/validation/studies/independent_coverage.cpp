@@ -79,24 +79,19 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
 }  // namespace
 
 Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
-  const ContactProperties& contact = model.contacts[dataset];
   const MaterialState materials = materials_under(model, theta, dataset);
+  Truth truth;
+  truth.density = materials.density;
+  truth.stiffness = materials.stiffness;
   if (model.adhesion != AdhesionLaw::ring) {
     const ParameterSlot& energy = model.slots[model.slot_adhesion[dataset]];
     const bool follows = energy.derived && !energy.free && !model.constants.empty();
-    return AdhesiveTruth{model.adhesion == AdhesionLaw::jkr,
-                         materials.density,
-                         materials.stiffness,
-                         follows ? materials.adhesion_energy : theta[model.slot_adhesion[dataset]],
-                         theta[model.slot_C_H[dataset]],
-                         theta[model.slot_C_A[dataset]],
-                         model.phase == AdhesionDampingPhase::both};
+    truth.law = model.adhesion == AdhesionLaw::jkr ? TrueAdhesion::jkr : TrueAdhesion::dmt;
+    truth.work = follows ? materials.adhesion_energy : theta[model.slot_adhesion[dataset]];
+  } else {
+    truth.adhesion_force = adhesion_force_under(model, theta, dataset);
+    truth.reference_diameter = model.contacts[dataset].reference_diameter;
   }
-  RingAdhesionTruth truth;
-  truth.density = materials.density;
-  truth.stiffness = materials.stiffness;
-  truth.adhesion_force = adhesion_force_under(model, theta, dataset);
-  truth.reference_diameter = contact.reference_diameter;
   truth.C_H = theta[model.slot_C_H[dataset]];
   truth.C_A = theta[model.slot_C_A[dataset]];
   truth.damped_in_both_phases = model.phase == AdhesionDampingPhase::both;

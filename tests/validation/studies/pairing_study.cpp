@@ -4,10 +4,56 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/units.hpp"
-#include "validation/studies/pairing_score.hpp"
-#include "validation/synthetic/event_stream.hpp"
+#include "validation/studies/study_tables.hpp"
+
+namespace stream {
+namespace {
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+double Score::efficiency() const { return share(found, possible); }
+double Score::purity() const { return share(right, reported); }
+double Score::first_purity() const { return share(right_first, reported); }
+
+Score score(const Stream& stream, const recoil::PassageTable& table,
+            const recoil::PairingResult& result) {
+  Score score;
+  std::vector<std::pair<bool, bool>> both;
+  for (const Row& row : stream.rows) {
+    if (!row.usable || row.impact != 1) continue;
+    if (both.size() <= row.sphere) both.resize(row.sphere + 1);
+    (row.down ? both[row.sphere].first : both[row.sphere].second) = true;
+  }
+  for (const auto& [down, up] : both) score.possible += down && up ? 1 : 0;
+  for (const recoil::Impact& impact : result.impacts) {
+    if (!impact.used) continue;
+    ++score.reported;
+    const Row& down = stream.rows[static_cast<std::size_t>(table.passages[impact.down].line)];
+    const Row& up = stream.rows[static_cast<std::size_t>(table.passages[impact.up].line)];
+    if (down.sphere != up.sphere || down.impact != up.impact) continue;
+    ++score.right;
+    if (down.impact != 1) continue;
+    ++score.right_first;
+    ++score.found;
+  }
+  return score;
+}
+
+recoil::PassageTable read(const Stream& stream) {
+  recoil::PassageFormat format;
+  format.units = {
+      {"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}};
+  return recoil::parse_passages(stream.csv, "events.csv", "", format);
+}
+
+}  // namespace stream
 
 namespace recoil {
 namespace {
@@ -106,29 +152,28 @@ void add_worse_instruments(PairingStudy& study) {
 Cell share_cell(double share) { return Sentence(fmt::format("{:.2f} %", 100.0 * share)); }
 
 Table table_of(const PairingStudy& study, PairingTable which, const char* label) {
-  Table table;
-  table.columns = {{label, {}, true},
-                   {"events"},
-                   {"first impacts in them"},
-                   {"pairs reported"},
-                   {"efficiency"},
-                   {"pure"},
-                   {"pure and first"},
-                   {"purity as estimated"},
-                   {"later impacts recognised"},
-                   {"height [um]"},
-                   {"time"}};
-  for (const PairingRow& row : study.rows) {
-    if (row.table != which) continue;
-    table.rows.push_back(
-        {Sentence(row.label), Sentence(std::to_string(row.events)),
-         Sentence(std::to_string(row.possible)), Sentence(std::to_string(row.reported)),
-         share_cell(row.efficiency), share_cell(row.purity), share_cell(row.first_purity),
-         share_cell(row.estimated_purity), Sentence(row.returns_usable ? "yes" : "no"),
-         say("{:.2f} {+/-} {:.2f}", row.height / units::um, row.height_sd / units::um),
-         row.seconds ? Cell(Sentence(fmt::format("{:.2f} s", *row.seconds))) : Cell()});
-  }
-  return table;
+  std::vector<PairingRow> rows = study.rows;
+  std::erase_if(rows, [which](const PairingRow& row) { return row.table != which; });
+  using Row = const PairingRow&;
+  return study_table<PairingRow>(
+      rows, {{label, [](Row row) { return word_cell(row.label); }, true},
+             {"events", [](Row row) { return count_cell(row.events); }},
+             {"first impacts in them", [](Row row) { return count_cell(row.possible); }},
+             {"pairs reported", [](Row row) { return count_cell(row.reported); }},
+             {"efficiency", [](Row row) { return share_cell(row.efficiency); }},
+             {"pure", [](Row row) { return share_cell(row.purity); }},
+             {"pure and first", [](Row row) { return share_cell(row.first_purity); }},
+             {"purity as estimated", [](Row row) { return share_cell(row.estimated_purity); }},
+             {"later impacts recognised",
+              [](Row row) { return word_cell(row.returns_usable ? "yes" : "no"); }},
+             {"height [um]",
+              [](Row row) {
+                return say("{:.2f} {+/-} {:.2f}", row.height / units::um,
+                           row.height_sd / units::um);
+              }},
+             {"time", [](Row row) {
+                return row.seconds ? word_cell(fmt::format("{:.2f} s", *row.seconds)) : Cell();
+              }}});
 }
 
 Sentence bar_words(const PairingBar& bar) {

@@ -1,53 +1,61 @@
 #include "validation/studies/program_run.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <fmt/format.h>
 #include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <chrono>
+#include <cmath>
+#include <fstream>
 #include <stdexcept>
 
-extern char** environ;
+#include "core/child.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
 
 namespace hidden {
 
 ProgramRun run_program(const std::vector<std::string>& command) {
-  std::array<int, 2> errors{};
-  if (pipe2(errors.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, errors[1], 2);
-  std::vector<std::string> words = command;
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
   const auto start = std::chrono::steady_clock::now();
-  pid_t child = 0;
-  const int failed =
-      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(errors[1]);
-  ProgramRun run;
-  if (failed != 0) {
-    close(errors[0]);
-    run.complaint = "cannot be started";
-    return run;
+  const recoil::ChildOutcome outcome = recoil::run_child(command, "", std::chrono::hours(24));
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  if (outcome.failed != 0) return {-1, 0.0, "cannot be started"};
+  return {outcome.status, time.count(), outcome.err};
+}
+
+PlainFit plain_fit(const std::filesystem::path& fit, const std::vector<std::string>& mechanisms,
+                   const std::filesystem::path& binary) {
+  std::string text = recoil::read_text_file(fit);
+  if (!mechanisms.empty()) {
+    const std::string model = "[model]\n";
+    text.insert(text.find(model) + model.size(),
+                fmt::format("mechanisms = [\"{}\"]\n", fmt::join(mechanisms, "\", \"")));
   }
-  std::array<char, 4096> buffer{};
-  for (ssize_t n = 0; (n = read(errors[0], buffer.data(), buffer.size())) > 0;) {
-    run.complaint.append(buffer.data(), static_cast<std::size_t>(n));
+  const std::filesystem::path changed = std::filesystem::path(fit).replace_extension(".with.toml");
+  recoil::write_whole_file(changed, text);
+  const std::filesystem::path out = fit.parent_path() / "out";
+  PlainFit found;
+  if (run_program({binary.string(), "fit", changed.string(), "--replicates", "0", "--threads", "1",
+                   "--out", out.string()})
+          .status != 0) {
+    return found;
   }
-  close(errors[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
+  std::ifstream in(out / "fit.json");
+  const recoil::Json answer = recoil::Json::parse(in);
+  double k = 0.0;
+  for (const auto& [name, parameter] : answer.at("parameters").items()) {
+    if (parameter.at("free").get<bool>()) k += 1.0;
+  }
+  for (const recoil::Json& point : answer.at("residuals")) {
+    found.predicted.push_back(point.at("predicted"));
+    found.residuals.push_back(point.at("weighted_residual"));
+    found.sd.push_back(point.at("sd_used"));
+    found.log_velocity.push_back(std::log(point.at("incident_velocity").get<double>()));
+    found.log_diameter.push_back(std::log(point.at("diameter_um").get<double>()));
+  }
+  const auto n = static_cast<double>(found.residuals.size());
+  found.chi2 = answer.at("goodness").at("chi2");
+  found.aicc = found.chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+  return found;
 }
 
 ScratchFolder::ScratchFolder() {

@@ -10,6 +10,7 @@
 #include "core/resumable.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/posterior.hpp"
+#include "validation/studies/study_tables.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {
@@ -59,12 +60,12 @@ FitSpec spec_of(RankArm arm) {
 }
 
 /// K and f0 from the recipes' own equations.
-RingAdhesionTruth truth_with(double C_H, double C_A, double density, double modulus) {
+Truth truth_with(double C_H, double C_A, double density, double modulus) {
   Dataset data = sphere_and_target(RankArm::stated_noise);
   data.system.particle.density = density;
   data.system.particle.youngs_modulus = modulus;
   const DerivedContact contact = derive_recipe_contact(data.system.particle, data.system.surface);
-  RingAdhesionTruth truth;
+  Truth truth;
   truth.density = density;
   truth.stiffness = contact.stiffness;
   truth.reference_diameter = *data.system.reference_diameter;
@@ -100,9 +101,9 @@ ImpactPoint counted_point(const Truth& truth, ImpactPoint point, RandomStream& r
 
 /// The data of the truth at velocities from 1.6 (with captures: 0.85) times the capture velocity in
 /// the middle of the prior.
-Dataset made_data(RankArm arm, const RingAdhesionTruth& truth, RandomStream& random) {
+Dataset made_data(RankArm arm, const Truth& truth, RandomStream& random) {
   const bool counts = arm == RankArm::captures;
-  const RingAdhesionTruth middle =
+  const Truth middle =
       truth_with(0.5 * (lower_C_H + upper_C_H), 0.5 * (lower_C_A + upper_C_A), 1350.0, 1.2e9);
   // Log-uniform over a factor of 4: posteriors with the prior 1 / scale are calibrated at any.
   const double sd =
@@ -168,17 +169,9 @@ double share_within(const std::vector<int>& ranks) {
 }
 
 std::string title_of(RankArm arm) {
-  switch (arm) {
-    case RankArm::stated_noise:
-      return "Stated noise";
-    case RankArm::estimated_noise:
-      return "Estimated noise";
-    case RankArm::captures:
-      return "Captures";
-    case RankArm::uncertain_constants:
-      return "Uncertain constants";
-  }
-  return {};
+  std::string words = words_of(to_string(arm));
+  words.front() = static_cast<char>(std::toupper(words.front()));
+  return words;
 }
 
 }  // namespace
@@ -349,21 +342,21 @@ Document rank_page(const RankStudy& study) {
       "samples that are as far from uniform anywhere (simultaneous bands, Saeilynoja et al. "
       "2022).",
       study.sets, rank_draws)}};
-  Table table;
-  table.columns = {{"data", {}, true},
-                   {"parameter", {}, true},
-                   {"data sets"},
-                   {"without a posterior"},
-                   {"90 % intervals that hold the truth"},
-                   {"p"}};
-  for (const RankRow& row : study.rows) {
-    const double p = rank_p_value(row.ranks, rank_band(static_cast<int>(row.ranks.size())));
-    table.rows.push_back({Sentence(title_of(row.arm)), Sentence(row.parameter),
-                          Sentence(std::to_string(row.ranks.size())),
-                          Sentence(std::to_string(row.unsettled)),
-                          Sentence(fmt::format("{:.1f} %", 100.0 * share_within(row.ranks))),
-                          Sentence(fmt::format("{:.3f}", p))});
-  }
+  using Row = const RankRow&;
+  const Table table = study_table<RankRow>(
+      study.rows,
+      {{"data", [](Row row) { return word_cell(title_of(row.arm)); }, true},
+       {"parameter", [](Row row) { return word_cell(row.parameter); }, true},
+       {"data sets", [](Row row) { return count_cell(row.ranks.size()); }},
+       {"without a posterior", [](Row row) { return word_cell(std::to_string(row.unsettled)); }},
+       {"90 % intervals that hold the truth",
+        [](Row row) {
+          return word_cell(fmt::format("{:.1f} %", 100.0 * share_within(row.ranks)));
+        }},
+       {"p", [](Row row) {
+          const RankBand band = rank_band(static_cast<int>(row.ranks.size()));
+          return word_cell(fmt::format("{:.3f}", rank_p_value(row.ranks, band)));
+        }}});
   page.sections = {{"ranks", "Ranks", {}, {table}}};
   append(page.sections.back().blocks, stamp_blocks(study.stamp));
   return page;

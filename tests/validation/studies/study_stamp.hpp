@@ -19,8 +19,11 @@ struct StudyStamp {
   RECOIL_FIELDS(study, command, key)
 };
 
-/// The last paragraphs of a study's page.
-std::vector<Block> stamp_blocks(const StudyStamp& stamp);
+/// The last paragraph of a study's page.
+inline std::vector<Block> stamp_blocks(const StudyStamp& stamp) {
+  return {Paragraph{say("Made by {} ({}), from sources with the key {}.",
+                        code("./run study " + stamp.study), code(stamp.command), code(stamp.key))}};
+}
 
 /// The JSON of a study: its stamp, then its fields.
 template <class Result>

@@ -8,7 +8,6 @@
 
 #include "validation/synthetic/observed_mean.hpp"
 #include "validation/synthetic/other_laws.hpp"
-#include "validation/synthetic/purpose.hpp"
 
 namespace hidden {
 namespace {

@@ -160,25 +160,4 @@ std::filesystem::path write_case(const Case& made, const std::filesystem::path& 
   return fit;
 }
 
-std::string truth_json(const Case& made) {
-  Json truth;
-  truth["key"] = made.order.key();
-  truth["name"] = neutral_name(made.order);
-  truth["design"] = made.order.design;
-  truth["effects"] = Json::array();
-  for (std::size_t k = 0; k < made.strengths.size(); ++k) {
-    truth["effects"].push_back({{"id", made.order.effects[k]},
-                                {"strength", made.strengths[k]},
-                                {"unit", find_hidden_effect(made.order.effects[k]).unit}});
-  }
-  truth["wanted_signal_to_noise"] = made.order.signal_to_noise;
-  truth["signal_to_noise"] = made.refit.signal_to_noise;
-  truth["reached"] = made.reached;
-  truth["C_H"] = made.design.base.C_H;
-  truth["C_A"] = made.design.base.C_A;
-  truth["refitted_C_H"] = made.refit.C_H;
-  truth["refitted_C_A"] = made.refit.C_A;
-  return truth.dump(2) + "\n";
-}
-
 }  // namespace hidden

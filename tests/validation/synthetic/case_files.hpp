@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "validation/synthetic/case.hpp"
 
@@ -10,8 +9,5 @@ namespace hidden {
 /// Writes what the diagnosis may see into `folder`: the dataset NAME/ and the fit NAME.toml beside
 /// it; NAME says nothing. @return the path of the fit
 std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder);
-
-/// What is true, as JSON; to be kept elsewhere.
-std::string truth_json(const Case& made);
 
 }  // namespace hidden

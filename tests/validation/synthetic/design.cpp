@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "core/random.hpp"
-#include "validation/synthetic/purpose.hpp"
 
 namespace hidden {
 namespace {

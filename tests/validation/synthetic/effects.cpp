@@ -9,6 +9,7 @@
 
 #include "validation/synthetic/other_laws.hpp"
 #include "validation/synthetic/runge_kutta.hpp"
+#include "validation/truth/elastoplastic_truth.hpp"
 
 namespace hidden {
 namespace {
@@ -233,7 +234,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   double work = effects.asperity_energy;
   work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
   if (effects.jkr_work > 0.0) {
-    work += jkr_work_lost(effects.jkr_work, sphere.radius, sphere.stiffness);
+    work += recoil::jkr_parting_work(effects.jkr_work, sphere.radius, 0.75 * sphere.stiffness);
   }
   square -= 2.0 * work / sphere.mass;
 
@@ -261,6 +262,31 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
 }
 
 }  // namespace
+
+double Bend::factor(double velocity, double diameter) const {
+  if (size == 0.0) return 1.0;
+  double sum = 0.0;
+  for (const Wave& wave : waves) {
+    sum += std::cos(wave.per_log_velocity * std::log(velocity) +
+                    wave.per_log_diameter * std::log(diameter) + wave.phase);
+  }
+  return 1.0 + size * std::sqrt(2.0 / static_cast<double>(waves.size())) * sum;
+}
+
+Bend draw_bend(double size, std::uint64_t seed, std::uint64_t which) {
+  constexpr std::uint64_t first_bend = 1000;
+  constexpr double longest = 20.0, shortest = 5.0;
+  recoil::RandomStream random(seed, hidden_purpose, first_bend + which);
+  Bend bend;
+  bend.size = size;
+  for (Bend::Wave& wave : bend.waves) {
+    const double turn = 2.0 * pi;
+    const double number = turn / (longest * std::pow(shortest / longest, random.uniform()));
+    const double direction = turn * random.uniform();
+    wave = {number * std::cos(direction), number * std::sin(direction), turn * random.uniform()};
+  }
+  return bend;
+}
 
 double size_of_offsets(const Effects& effects) {
   if (effects.series_offset.empty()) return 0.0;

@@ -7,7 +7,6 @@
 
 #include "core/random.hpp"
 #include "validation/synthetic/observed_mean.hpp"
-#include "validation/synthetic/purpose.hpp"
 
 namespace hidden {
 namespace {

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "validation/synthetic/purpose.hpp"
-
 namespace hidden {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "validation/synthetic/runge_kutta.hpp"
+#include "validation/truth/elastoplastic_truth.hpp"
 
 namespace hidden {
 namespace {
@@ -155,98 +156,11 @@ ContactResult contact(const Sphere& sphere, const ContactExtras& extras, const B
   return result;
 }
 
-namespace {
-
-PlasticResult bare_plastic_contact(double mass, double radius, double stiffness,
-                                   double yield_pressure, double velocity) {
-  using Y = State<2>;
-  // Peak pressure p of Hertz: p = 3 F / (2 pi a^2) = 3 K sqrt(n / R) / (2 pi).
-  const double yield_depth = radius * std::pow(2.0 * pi * yield_pressure / (3.0 * stiffness), 2);
-  const auto loading = [&](double n) {
-    if (!(n > 0.0)) return 0.0;
-    const double elastic = std::sqrt(radius) * stiffness * std::pow(std::min(n, yield_depth), 1.5);
-    return elastic + pi * yield_pressure * radius * std::max(n - yield_depth, 0.0);
-  };
-  const double depth =
-      std::pow(1.25 * mass * velocity * velocity / (std::sqrt(radius) * stiffness), 0.4);
-  const double time = depth / velocity;
-  const Y size = {depth, velocity};
-  Y y = {0.0, velocity};
-  const auto in = [&](const Y& at) -> Y { return {at[1], -loading(at[0]) / mass}; };
-  integrate_until<2>(
-      in, [](const Y& at) { return at[1]; }, y, 1e-4 * time, size);
-  if (!(y[0] > yield_depth)) return {velocity * velocity, radius};
-  const double deepest = y[0];
-  const double peak = loading(deepest);
-  const double area = radius * deepest;  // a^2
-  const double flat = stiffness * std::pow(area, 1.5) / peak;
-  const double left = deepest - area / flat;  // depth of the imprint
-  const auto out = [&](const Y& at) -> Y {
-    const double n = at[0] - left;
-    return {at[1], n > 0.0 ? -std::sqrt(flat) * stiffness * n * std::sqrt(n) / mass : 0.0};
-  };
-  y = {deepest, 0.0};
-  integrate_until<2>(
-      out, [&](const Y& at) { return at[0] - left; }, y, 1e-4 * time, size);
-  return {y[1] * y[1], flat};
-}
-
-}  // namespace
-
 PlasticResult plastic_contact(double mass, double radius, double stiffness, double yield_pressure,
                               double velocity, double work_of_adhesion) {
-  if (work_of_adhesion == 0.0) {
-    return bare_plastic_contact(mass, radius, stiffness, yield_pressure, velocity);
-  }
-  const double E = 0.75 * stiffness;
-  const double w = work_of_adhesion;
-  // The sphere moves along the approach a^2 / R - sqrt(2 pi w a / E) of a contact of radius a.
-  const auto slope = [&](double a, double curvature) {
-    return 2.0 * a / curvature - std::sqrt(pi * w / (2.0 * E * a));
-  };
-  const auto peak = [&](double a) {
-    return 2.0 * E * a / (pi * radius) - std::sqrt(2.0 * w * E / (pi * a));
-  };
-  // Force: the plateau p_Y out to the radius b, the pressure of the contact beyond, as rings.
-  const auto push = [&](double a) {
-    const double rise = 2.0 * E * a / (pi * radius);
-    const double pull = std::sqrt(2.0 * w * E / (pi * a));
-    double edge = 1.0;  // (1 - b^2 / a^2)^(1/2), from rise edge^2 - p_Y edge - pull = 0
-    double plateau = 0.0;
-    if (peak(a) > yield_pressure) {
-      const double root = std::sqrt(yield_pressure * yield_pressure + 4.0 * rise * pull);
-      edge = (yield_pressure + root) / (2.0 * rise);
-      plateau = pi * a * a * (1.0 - edge * edge) * yield_pressure;
-    }
-    return plateau + 2.0 * pi * a * a * edge * (rise * edge * edge / 3.0 - pull);
-  };
-  using Y = State<2>;  // contact radius and speed
-  const double touch = std::cbrt(2.0 * pi * w * radius * radius / E);
-  const double depth =
-      std::pow(1.25 * mass * velocity * velocity / (std::sqrt(radius) * stiffness), 0.4);
-  const double wide = touch + std::sqrt(radius * depth);
-  const double fall = std::sqrt(w * wide * wide / mass);  // speed that adhesion alone gives
-  Y y = {touch, velocity};
-  const auto in = [&](const Y& at) -> Y {
-    return {at[1] / slope(at[0], radius), -push(at[0]) / mass};
-  };
-  integrate_until<2>(in, [](const Y& at) { return at[1]; }, y, 1e-4 * depth / velocity,
-                     {wide, velocity + fall});
-  const double widest = y[0];
-  if (!(peak(widest) > yield_pressure)) return {velocity * velocity, radius};
-  const double pulled = std::sqrt(8.0 * pi * w * E * widest * widest * widest);
-  const double flat = 4.0 * E * std::pow(widest, 3) / (3.0 * (push(widest) + pulled));
-  // Back to zero approach: Simpson's rule over the force, from where it is JKR's with R_p.
-  const double open = std::cbrt(2.0 * pi * w * flat * flat / E);
-  const auto power = [&](double a) {
-    return (4.0 * E * a * a * a / (3.0 * flat) - std::sqrt(8.0 * pi * w * E * a * a * a)) *
-           slope(a, flat);
-  };
-  constexpr int steps = 200;
-  const double h = (widest - open) / steps;
-  double sum = power(open) + power(widest);
-  for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * power(open + i * h);
-  return {2.0 * sum * h / 3.0 / mass, flat};
+  const recoil::ElastoplasticImpact impact = recoil::elastoplastic_impact(
+      {0.75 * stiffness, radius, mass, work_of_adhesion, 0.0, yield_pressure}, velocity);
+  return {velocity * velocity * (1.0 - impact.plastic_share), impact.unloading_radius};
 }
 
 double work_at_rest(const Sphere& sphere) {
@@ -254,30 +168,6 @@ double work_at_rest(const Sphere& sphere) {
       std::sqrt(2.0 * pi * sphere.adhesion_force * sphere.radius / sphere.stiffness);
   return sphere.stiffness * at_rest * at_rest * at_rest /
          (6.0 * pi * sphere.radius * sphere.radius);
-}
-
-double jkr_work_lost(double work_of_adhesion, double radius, double stiffness) {
-  const double E = 0.75 * stiffness;
-  const double w = work_of_adhesion;
-  // Johnson, Kendall & Roberts (1971): force and approach of a contact of radius a.
-  const auto force = [&](double a) {
-    return 4.0 * E * a * a * a / (3.0 * radius) - std::sqrt(8.0 * pi * w * E * a * a * a);
-  };
-  const auto slope = [&](double a) {  // d delta / d a
-    return 2.0 * a / radius - 0.5 * std::sqrt(2.0 * pi * w / (E * a));
-  };
-  const double unit = std::cbrt(pi * w * radius * radius / (2.0 * E));  // a where slope is 2^(-1)..
-  // delta = 0 at a^3 = 2 pi w R^2 / E, d delta / d a = 0 at a^3 = pi w R^2 / (8 E).
-  const double from = std::cbrt(4.0) * unit;
-  const double to = std::cbrt(0.25) * unit;
-  constexpr int steps = 2000;  // Simpson's rule: good to 1e-12
-  const double h = (to - from) / steps;
-  double sum = force(from) * slope(from) + force(to) * slope(to);
-  for (int i = 1; i < steps; ++i) {
-    const double a = from + i * h;
-    sum += (i % 2 == 1 ? 4.0 : 2.0) * force(a) * slope(a);
-  }
-  return std::abs(sum * h / 3.0);
 }
 
 }  // namespace hidden

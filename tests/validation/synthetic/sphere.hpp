@@ -63,10 +63,7 @@ struct ContactResult {
 ContactResult contact(const Sphere& sphere, const ContactExtras& extras, const Base& base,
                       double velocity);
 
-/// Loading and unloading of an elastic-plastic sphere (Thornton & Ning 1998). Without adhesion
-/// Hertz up to the yield pressure at the centre, then dF/dn = pi p_Y R, unloading with Hertz's law
-/// for the flattened radius R_p that has the same contact area. With it the pressure of the JKR
-/// contact is cut off at p_Y, and unloading is JKR with R_p.
+/// Loading and unloading of an elastic-plastic sphere, see `recoil::ElastoplasticContact`.
 struct PlasticResult {
   double square = 0.0;  ///< v^2 at zero approach on the way out; below zero: -2/m of the energy
                         ///< that is missing [m2/s2]
@@ -79,9 +76,5 @@ PlasticResult plastic_contact(double mass, double radius, double stiffness, doub
 /// W [J/m2] of the JKR contact that rests at the radius at which f0 holds the sphere: 2 pi a f0 =
 /// K a^3 / R = (6 pi W K a^3)^(1/2).
 double work_at_rest(const Sphere& sphere);
-
-/// Work that a JKR contact loses between its making at zero approach and its tear at fixed grips
-/// [J]: the integral of the force over the approach, by quadrature.
-double jkr_work_lost(double work_of_adhesion, double radius, double stiffness);
 
 }  // namespace hidden

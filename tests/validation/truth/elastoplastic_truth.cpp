@@ -13,10 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// W_s (E^2 / (w^5 R^4))^(1/3), the work that a JKR contact takes from alpha = 0 to its tear at
-/// fixed grips (Johnson, Kendall & Roberts 1971; Thornton & Ning 1998 print 7.09).
-constexpr double parting_work = 7.0922;
-
 /// JKR's contact of one curvature, in the contact radius.
 struct JkrContact {
   double E, w, curvature;
@@ -26,6 +22,8 @@ struct JkrContact {
   double force(double a) const { return 4.0 * E * a * a * a / (3.0 * curvature) - pull(a); }
   /// Work against the force from alpha = 0 to a.
   double work(double a) const { return stored(a) - stored(closes()); }
+  /// Work from alpha = 0 to the tear at fixed grips, a^3 = pi w R^2 / (8 E).
+  double parting() const { return work(closes() / std::cbrt(16.0)); }
   double approach_slope(double a) const {
     return 2.0 * a / curvature - (a > 0.0 ? std::sqrt(0.5 * pi * w / (E * a)) : 0.0);
   }
@@ -111,9 +109,12 @@ double widest_contact(const Loading& loading, const ElastoplasticContact& c, dou
 
 }  // namespace
 
+double jkr_parting_work(double adhesion_energy, double radius, double reduced_modulus) {
+  return JkrContact{reduced_modulus, adhesion_energy, radius}.parting();
+}
+
 ElastoplasticImpact elastoplastic_impact(const ElastoplasticContact& contact, double velocity) {
   const double E = contact.reduced_modulus;
-  const double w = contact.adhesion_energy;
   const double energy = 0.5 * contact.mass * velocity * velocity;
   const Loading loading(contact);
   const double a = widest_contact(loading, contact, energy);
@@ -124,8 +125,7 @@ ElastoplasticImpact elastoplastic_impact(const ElastoplasticContact& contact, do
     unloading.curvature = 4.0 * E * a * a * a / (3.0 * (loading.force(a) + unloading.pull(a)));
     recovered = unloading.work(a);
   }
-  const double parting =
-      parting_work * std::cbrt(std::pow(w, 5) * std::pow(unloading.curvature, 4) / (E * E));
+  const double parting = unloading.parting();
   const double peeling = contact.hysteresis * pi * a * a;
 
   ElastoplasticImpact impact;

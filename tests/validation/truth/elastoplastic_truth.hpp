@@ -46,6 +46,10 @@ struct ElastoplasticImpact {
   double plastic_share = 0.0;        ///< part of the incident energy that is gone at alpha = 0 [1]
 };
 
+/// Work that a JKR contact takes between its making at zero approach and its tear at fixed grips
+/// [J]: 7.0922 (w^5 R^4 / E^2)^(1/3).
+double jkr_parting_work(double adhesion_energy, double radius, double reduced_modulus);
+
 /// One impact at `velocity` [m/s] > 0.
 /// @throws ComputationError where nothing stops the sphere: for a size, say, that is none.
 ElastoplasticImpact elastoplastic_impact(const ElastoplasticContact& contact, double velocity);

@@ -4,40 +4,28 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "validation/truth/adhesive_truth.hpp"
-#include "validation/truth/ring_adhesion_truth.hpp"
 
 namespace recoil {
 namespace {
 
 using std::numbers::pi;
 
-double mass_of(double density, double diameter) {
-  return density * pi / 6.0 * diameter * diameter * diameter;
-}
-
-RingAdhesionImpact impact_of(const RingAdhesionTruth& truth, double diameter, double velocity) {
-  RingAdhesionContact contact;
+TrueImpact impact_of(const Truth& truth, double diameter, double velocity) {
+  TrueContact contact;
+  contact.law = truth.law;
   contact.stiffness = truth.stiffness;
-  contact.adhesion_force =
-      truth.adhesion_force * std::cbrt(diameter / truth.reference_diameter);  // eq. 12
+  contact.adhesion = truth.work;
   contact.radius = 0.5 * diameter;
-  contact.mass = mass_of(truth.density, diameter);
+  contact.mass = truth.density * pi / 6.0 * diameter * diameter * diameter;
   contact.C_H = truth.C_H;
-  contact.C_A = truth.C_A * std::pow(diameter / truth.reference_diameter, truth.C_A_exponent);
+  contact.C_A = truth.C_A;
   contact.damped_in_both_phases = truth.damped_in_both_phases;
-  return ring_adhesion_impact(contact, velocity);
-}
-
-double restitution(const RingAdhesionTruth& truth, double diameter, double velocity) {
-  return impact_of(truth, diameter, velocity).restitution;
-}
-
-double restitution(const AdhesiveTruth& truth, double diameter, double velocity) {
-  return adhesive_restitution(
-      {truth.jkr, truth.stiffness, truth.work, 0.5 * diameter, mass_of(truth.density, diameter),
-       truth.C_H, truth.C_A, truth.damped_in_both_phases},
-      velocity);
+  if (truth.law == TrueAdhesion::ring) {
+    const double ratio = diameter / truth.reference_diameter;
+    contact.adhesion = truth.adhesion_force * std::cbrt(ratio);  // eq. 12
+    contact.C_A *= std::pow(ratio, truth.C_A_exponent);
+  }
+  return true_impact(contact, velocity);
 }
 
 /// Eq. 7 [1/Pa].
@@ -56,11 +44,11 @@ double surface_energy_of(const Material& material) {
 }  // namespace
 
 double true_restitution(const Truth& truth, double diameter, double velocity) {
-  return std::visit([&](const auto& kind) { return restitution(kind, diameter, velocity); }, truth);
+  return impact_of(truth, diameter, velocity).restitution;
 }
 
-double adhesion_share_of_loss(const RingAdhesionTruth& truth, double diameter, double velocity) {
-  const RingAdhesionImpact impact = impact_of(truth, diameter, velocity);
+double adhesion_share_of_loss(const Truth& truth, double diameter, double velocity) {
+  const TrueImpact impact = impact_of(truth, diameter, velocity);
   return impact.adhesion_loss / (1.0 - impact.restitution * impact.restitution);
 }
 
@@ -79,12 +67,6 @@ double true_capture_velocity(const Truth& truth, double diameter) {
     (rebounds(middle) ? free : captured) = middle;
   }
   return free;
-}
-
-Truth without_adhesion(Truth truth) {
-  if (auto* ring = std::get_if<RingAdhesionTruth>(&truth)) ring->adhesion_force = 0.0;
-  if (auto* adhesive = std::get_if<AdhesiveTruth>(&truth)) adhesive->work = 0.0;
-  return truth;
 }
 
 DerivedContact derive_recipe_contact(const Material& particle, const Material& surface) {

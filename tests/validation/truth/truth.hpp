@@ -1,49 +1,34 @@
 #pragma once
 
-#include <variant>
-
 #include "data/system.hpp"
+#include "validation/truth/impact_truth.hpp"
 
 namespace recoil {
 
-/// A truth made by the equation of the paper, see `RingAdhesionContact`.
-struct RingAdhesionTruth {
+/// What makes the impacts of spheres of every size, see `TrueContact`.
+struct Truth {
+  TrueAdhesion law = TrueAdhesion::ring;
   double density = 0.0;             ///< of the sphere [kg/m3]
   double stiffness = 0.0;           ///< K [Pa]
-  double adhesion_force = 0.0;      ///< f0 at `reference_diameter` [N/m]; f0 ~ d^(1/3) elsewhere
-  double reference_diameter = 0.0;  ///< [m]
+  double adhesion_force = 0.0;      ///< ring: f0 at `reference_diameter` [N/m]; f0 ~ d^(1/3)
+  double reference_diameter = 0.0;  ///< ring [m]
+  double work = 0.0;                ///< JKR and DMT: W [J/m2]
   double C_H = 0.0;                 ///< [s/m]
   double C_A = 0.0;                 ///< at `reference_diameter` [s/m]
-  double C_A_exponent = 0.0;        ///< q: C_A ~ d^q [1]; the paper's model has 0
+  double C_A_exponent = 0.0;        ///< ring: q, C_A ~ d^q [1]; the paper's model has 0
   bool damped_in_both_phases = false;
 };
-
-/// A truth made by another law of adhesion, see `AdhesiveContact`.
-struct AdhesiveTruth {
-  bool jkr = true;         ///< else DMT
-  double density = 0.0;    ///< of the sphere [kg/m3]
-  double stiffness = 0.0;  ///< K [Pa]
-  double work = 0.0;       ///< W [J/m2]
-  double C_H = 0.0;        ///< [s/m]
-  double C_A = 0.0;        ///< [s/m]
-  bool damped_in_both_phases = false;
-};
-
-using Truth = std::variant<RingAdhesionTruth, AdhesiveTruth>;
 
 /// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
 /// captured.
 double true_restitution(const Truth& truth, double diameter, double velocity);
 
 /// What the damping of the adhesion takes, of the energy that one impact loses [1].
-double adhesion_share_of_loss(const RingAdhesionTruth& truth, double diameter, double velocity);
+double adhesion_share_of_loss(const Truth& truth, double diameter, double velocity);
 
 /// The velocity below which a sphere of `diameter` [m] is captured [m/s], to a relative 1e-9.
 /// @throws ComputationError when nothing is captured, or everything is up to 1000 m/s.
 double true_capture_velocity(const Truth& truth, double diameter);
-
-/// The same truth with the adhesion taken away.
-Truth without_adhesion(Truth truth);
 
 /// Eq. 6, 7, 9 to 12 of Li, Dunn & Brach (1999) from the two materials.
 struct DerivedContact {
