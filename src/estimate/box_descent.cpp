@@ -126,6 +126,9 @@ class BoxDescent {
     }
     double radius = options.first_radius;
     double shrink = 2.0;
+    const double freedom = std::max(
+        1.0, static_cast<double>(problem_.residual_count) - static_cast<double>(free_.size()));
+    double promised_before = 0.0;
     linearise();
     for (result_.iterations = 0; result_.iterations < options.max_iterations;
          ++result_.iterations) {
@@ -135,11 +138,21 @@ class BoxDescent {
         return ended("the steps vanish");
       }
       LeastSquaresResult trial = moved(d);
+      const Eigen::VectorXd expected = residuals_ + jacobian_ * d;
+      const double promised = result_.sum_of_squares - expected.squaredNorm();
+      // What the step leaves of the way is as much shorter as this step is than the one before.
+      const double left = promised_before > 0.0 ? promised * promised / promised_before : promised;
+      if (!options.finish && std::max(left, 0.0) / std::pow(options.close_enough, 2) <=
+                                 expected.squaredNorm() / freedom) {
+        result_.theta = std::move(trial.theta);  // without an evaluation
+        Eigen::VectorXd::Map(result_.residuals.data(), expected.size()) = expected;
+        result_.sum_of_squares = expected.squaredNorm();
+        return ended("the rest of the way is short");
+      }
       const bool answered = ask(trial);
       const double change = result_.sum_of_squares - trial.sum_of_squares;
       const bool no_more =
           answered && std::abs(change) <= options.function_tolerance * result_.sum_of_squares;
-      const double promised = result_.sum_of_squares - (residuals_ + jacobian_ * d).squaredNorm();
       const double kept = change / promised;
       if (answered && (kept > least_decrease || (no_more && change > 0.0))) {
         trial.iterations = result_.iterations;
@@ -149,6 +162,7 @@ class BoxDescent {
         radius = std::min(largest_radius,
                           radius / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
         shrink = 2.0;
+        promised_before = promised;
         linearise();
         continue;
       }

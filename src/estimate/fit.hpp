@@ -111,7 +111,7 @@ struct FitResult {
 };
 
 /// Fits the free parameters of `model` to all points at once from several starts, then once more
-/// together with the weights that depend on the fit (`reweighted_fit`). Of more than 20,000 points
+/// together with the weights that depend on the fit (`reweighted_fit`). Of more than 500 points
 /// the starts see 10,000, spread evenly over the datasets, diameters and velocities; where they
 /// end, as far as these points cannot tell the ends apart, the fit to all points begins.
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});

@@ -66,10 +66,13 @@ class GaussNewton {
     return to;
   }
 
-  /// Takes a small step without an evaluation.
+  /// Takes a small step without an evaluation. @return false, and `at` unchanged, where it leaves
+  /// the bounds
   bool take_last(LeastSquaresResult& at, const Eigen::VectorXd& d) const {
     const std::vector<double> before = at.theta;
-    if (!move(at.theta, d)) return false;
+    std::vector<double> theta = before;
+    if (!move(theta, d)) return false;
+    at.theta = std::move(theta);
     at.sum_of_squares = 0.0;
     for (std::size_t i = 0; i < at.residuals.size(); ++i) {
       for (const std::size_t j : moving_) {
@@ -201,7 +204,8 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
     done = method.moves(result, step->d) <= all_digits;
     if (done) break;
     if (!options.finish && is_close(ratio * step->errors)) {
-      done = method.take_last(result, step->d);
+      if (!method.take_last(result, step->d)) return std::nullopt;
+      done = true;
       break;
     }
     if (!history) history.emplace(step->d);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <utility>
 
 #include "core/interrupt.hpp"
 #include "estimate/predictor.hpp"
@@ -47,7 +48,7 @@ std::vector<double> constant_deviations(const ImpactModel& model, const Observat
 }
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
-                                   long* handovers) {
+                                   long* handovers, std::shared_ptr<PointPredictor> points) {
   LeastSquaresProblem problem;
   problem.residual_count = data.points.size() + model.constants.size();
   for (const ParameterSlot& slot : model.slots) {
@@ -63,7 +64,8 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
       }
     };
   }
-  const auto predictor = std::make_shared<PointPredictor>(model, data.conditions());
+  const auto predictor =
+      points ? std::move(points) : std::make_shared<PointPredictor>(model, data.conditions());
   const auto settings = std::make_shared<const SharedSettings>(data.points);
   problem.evaluate = [predictor, settings, &model, &data, handovers](std::span<const double> theta,
                                                                      std::span<double> residuals,

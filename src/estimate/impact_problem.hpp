@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 
@@ -17,8 +19,10 @@ namespace recoil {
 /// stated. The problem refers to both arguments: they must outlive
 /// it. It and its copies share one work space, so that only one of them may be evaluated at a time.
 /// @param handovers when not null, counts the impacts that the fast solver handed over
+/// @param points when not null, answers for the points of `data`, for several problems of one model
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
-                                   long* handovers = nullptr);
+                                   long* handovers = nullptr,
+                                   std::shared_ptr<PointPredictor> points = nullptr);
 
 /// The deviations of the constants under `theta`, in standard deviations.
 std::vector<double> constant_deviations(const ImpactModel& model, const Observations& data,

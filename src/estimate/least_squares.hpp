@@ -56,8 +56,8 @@ struct LeastSquaresOptions {
   /// sum of squares does, which knows half as many. One or two Jacobians where the residuals are
   /// nearly linear.
   bool finish = true;
-  /// Gauss-Newton, where it does not `finish`, ends when what is left of the way is no longer than
-  /// this, in standard errors where the residuals scatter by 1.
+  /// Gauss-Newton and box_descent, where they do not `finish`, end when what is left of the way is
+  /// no longer than this, in standard errors where the residuals scatter by 1.
   double close_enough = 3e-7;
   double first_radius = 1e4;  ///< of the trust region, in parameters scaled by the Jacobian
 };

@@ -16,8 +16,10 @@ namespace recoil {
 /// One variance function as fitted to the points, and how well it does.
 struct VarianceCandidate {
   VarianceFunction function = VarianceFunction::constant;
-  double scale = 0.0;      ///< s of the function, for a single impact [1]
-  double criterion = 0.0;  ///< -2 ln restricted likelihood: smaller is better
+  double scale = 0.0;              ///< s of the function, for a single impact [1]
+  double criterion = 0.0;          ///< -2 ln restricted likelihood: smaller is better
+  double event_spread = 0.0;       ///< NoiseModel::event_spread under it
+  std::vector<double> theta = {};  ///< the parameters under it
 };
 
 /// What weights the points of a fit.

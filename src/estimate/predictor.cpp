@@ -78,17 +78,15 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       range_scale_(model.contacts.size(), 1.0),
       material_slopes_(model.contacts.size()),
       surroundings_(model.surroundings) {
-  const std::vector<double> initial = model.initial();
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
       const PointConditions& p = points_[i];
-      ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
-      // Of the stated materials, whatever the model starts with: theta scales these.
+      // Of the stated materials: theta scales these.
       const ContactProperties& stated = model.contacts[p.dataset];
-      unit.density = stated.as_one_sphere(p.diameter, stated.particle_density).density;
-      unit.stiffness = stated.stiffness;
-      unit.adhesion_force = stated.adhesion_force_at(1.0, p.diameter);
-      const ImpactGroups groups = impact_groups(unit);
+      const auto [equal, density] = stated.as_one_sphere(p.diameter, stated.particle_density);
+      const ImpactGroups groups =
+          impact_groups({equal, p.velocity, density, stated.stiffness,
+                         stated.adhesion_force_at(1.0, p.diameter), 0.0, 0.0, model.separation});
       beta_per_f0_[i] = groups.beta;
       range_per_f0_[i] = groups.range;
     }
@@ -182,6 +180,8 @@ long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
 
 long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   take_parameters(theta, gradient);
+  last_theta_.assign(theta.begin(), theta.end());
+  last_gradient_ = gradient;
   results_.resize(points_.size());
   const ImpactOptions options = model_.impact_options(gradient);
   if (extended_) return evaluate_extended(theta, options);
@@ -192,15 +192,26 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   return handed_over;
 }
 
+bool PointPredictor::keeps_answers() const {
+  return extended_ || points_.size() <= points_of_block;
+}
+
 long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradient,
                                      const TakeBlock& take) {
-  if (extended_ || points_.size() <= points_of_block) {
+  if (keeps_answers()) {
     long handed_over = 0;
-    if (!first_theta_.empty() && std::equal(theta.begin(), theta.end(), first_theta_.begin())) {
-      take_parameters(theta, gradient);
-      results_ = first_results_;
-    } else {
-      handed_over = evaluate(theta, gradient);
+    const auto is_at = [&](const std::vector<double>& known) {
+      return std::equal(theta.begin(), theta.end(), known.begin(), known.end());
+    };
+    if (!is_at(last_theta_) || (gradient && !last_gradient_)) {
+      if (is_at(first_theta_)) {
+        take_parameters(theta, true);
+        results_ = first_results_;
+        last_theta_ = first_theta_;
+        last_gradient_ = true;
+      } else {
+        handed_over = evaluate(theta, gradient);
+      }
     }
     if (gradient && first_theta_.empty() && !extended_) {
       first_theta_.assign(theta.begin(), theta.end());

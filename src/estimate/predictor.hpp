@@ -35,8 +35,8 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 /// The model at a fixed list of points under many theta: what does not depend on theta is worked
 /// out once, and few points are answered without allocating anything after the first evaluation.
 /// Many points fly in blocks, on all threads of the arena that asks; no digit depends on that. The
-/// answers of few points to the first theta with gradients are kept: refits of many samples begin
-/// at one place.
+/// answers of few points to the first theta with gradients are kept, because refits of many samples
+/// begin at one place, and those to the last theta.
 class PointPredictor {
  public:
   /// Refers to `model`, which must outlive it unchanged.
@@ -54,6 +54,8 @@ class PointPredictor {
   /// The same, but the answers of many points are handed over block by block instead of kept, so
   /// that `at` and the slopes have none.
   long evaluate_blocks(std::span<const double> theta, bool gradient, const TakeBlock& take);
+  /// Does `evaluate_blocks` keep its answers, so that the same theta costs nothing a second time?
+  bool keeps_answers() const;
 
   std::size_t size() const { return points_.size(); }
   /// The outcome and e^2 at point i, mechanisms included.
@@ -94,6 +96,8 @@ class PointPredictor {
   std::vector<double> nulls_;                // of these values where there is no slot
   std::vector<double> values_;
   std::vector<ImpactResult> results_;
+  std::vector<double> last_theta_;  // of results_
+  bool last_gradient_ = false;
   std::vector<double> first_theta_;  // with gradients
   std::vector<ImpactResult> first_results_;
 };

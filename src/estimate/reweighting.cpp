@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
@@ -14,6 +15,9 @@ namespace recoil {
 namespace {
 
 constexpr int most_rounds = 25;
+// A replicate drops a variance function that is so far behind another one, in the criterion of
+// both.
+constexpr double far_behind = 2.0;
 
 /// The steps of the parameters in units of their standard errors (of their values, without one).
 std::vector<double> relative_steps(const LeastSquaresResult& run,
@@ -70,57 +74,6 @@ class Extrapolation {
   std::vector<double> last_;
 };
 
-ReweightedFit reweight_with(const ImpactModel& model, Observations data,
-                            std::span<const double> start, const ReweightingOptions& options) {
-  ReweightedFit result;
-  result.data = std::move(data);
-  std::vector<double> theta(start.begin(), start.end());
-  double& noise_scale = result.data.noise.scale;
-  Extrapolation extrapolation;
-  LeastSquaresOptions minimiser = options.minimiser;
-  minimiser.finish = false;  // not in every round
-  for (int round = 0; round < most_rounds; ++round) {
-    const auto predicted = renew_weights(model, theta, result.data);
-    if (!predicted) {
-      result.run.end = DescentEnd::no_answer;
-      result.run.converged = false;
-      result.run.message =
-          "the weights need an answer of the model close to every point, and it has none beside "
-          "one of them";
-      return result;
-    }
-    result.run = minimise(impact_problem(model, result.data), theta, minimiser);
-    if (!result.run.ended()) return result;
-    double scale = 1.0;
-    if (!result.data.sd_stated) {
-      const ConstantsInFit constants =
-          constants_in_fit(result.run, model.adjusted_count(), result.data.constants_weight);
-      scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
-                  .scale();
-      // Data without noise would let the scale shrink for ever.
-      const double rounding = result.data.noise.rounding_sd;
-      result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
-      if (result.at_rest) break;
-      scale = std::max(scale, std::min(1.0, rounding / noise_scale));
-    }
-    std::vector<double> steps = relative_steps(result.run, theta);
-    result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
-    if (result.at_rest) break;
-    theta = extrapolation.next(model, result.run, theta, std::move(steps));
-    noise_scale *= scale;
-  }
-  return result;
-}
-
-/// The last digits, with the weights as they are.
-ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
-                       const LeastSquaresOptions& minimiser) {
-  if (!minimiser.finish || !fit.run.ended()) return fit;
-  LeastSquaresResult run = minimise(impact_problem(model, fit.data), fit.run.theta, minimiser);
-  if (run.ended()) fit.run = std::move(run);
-  return fit;
-}
-
 /// -2 ln restricted likelihood but for a constant that the variance functions share.
 double restricted_criterion(const ImpactModel& model, const ReweightedFit& result) {
   const LeastSquaresResult& run = result.run;
@@ -154,6 +107,69 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
       jacobian.householderQr().matrixQR().diagonal().cwiseAbs().array().log();
   const double log_determinant = 2.0 * diagonal.sum();
   return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
+}
+
+/// @param limit ends the rounds once the restricted criterion, at the scale that would fit best,
+/// exceeds it
+ReweightedFit reweight_with(const ImpactModel& model, Observations data,
+                            std::span<const double> start, const ReweightingOptions& options,
+                            double limit = INFINITY) {
+  ReweightedFit result;
+  result.data = std::move(data);
+  std::vector<double> theta(start.begin(), start.end());
+  double& noise_scale = result.data.noise.scale;
+  Extrapolation extrapolation;
+  LeastSquaresOptions minimiser = options.minimiser;
+  minimiser.finish = false;  // not in every round
+  const auto points = std::make_shared<PointPredictor>(model, result.data.conditions());
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto predicted = renew_weights(model, theta, *points, result.data);
+    if (!predicted) {
+      result.run.end = DescentEnd::no_answer;
+      result.run.converged = false;
+      result.run.message =
+          "the weights need an answer of the model close to every point, and it has none beside "
+          "one of them";
+      return result;
+    }
+    result.run = minimise(impact_problem(model, result.data, nullptr, points), theta, minimiser);
+    if (!result.run.ended()) return result;
+    minimiser.strategies = {Strategy::gauss_newton, Strategy::box_descent};  // near the answer
+    double scale = 1.0;
+    if (!result.data.sd_stated) {
+      const ConstantsInFit constants =
+          constants_in_fit(result.run, model.adjusted_count(), result.data.constants_weight);
+      const Misfit found =
+          misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants);
+      scale = found.scale();
+      // Data without noise would let the scale shrink for ever.
+      const double rounding = result.data.noise.rounding_sd;
+      result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
+      if (result.at_rest) break;
+      scale = std::max(scale, std::min(1.0, rounding / noise_scale));
+      const double square = scale * scale;
+      if (std::isfinite(limit) &&
+          restricted_criterion(model, result) - found.dof * (square - 1.0 - std::log(square)) >
+              limit) {
+        break;
+      }
+    }
+    std::vector<double> steps = relative_steps(result.run, theta);
+    result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
+    if (result.at_rest) break;
+    theta = extrapolation.next(model, result.run, theta, std::move(steps));
+    noise_scale *= scale;
+  }
+  return result;
+}
+
+/// The last digits, with the weights as they are.
+ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
+                       const LeastSquaresOptions& minimiser) {
+  if (!minimiser.finish || !fit.run.ended()) return fit;
+  LeastSquaresResult run = minimise(impact_problem(model, fit.data), fit.run.theta, minimiser);
+  if (run.ended()) fit.run = std::move(run);
+  return fit;
 }
 
 }  // namespace
@@ -196,35 +212,59 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     return finished(model, reweight_with(model, std::move(data), start, options),
                     options.minimiser);
   }
+  std::vector<VarianceFunction> functions = {VarianceFunction::constant,
+                                             VarianceFunction::proportional,
+                                             VarianceFunction::capture, VarianceFunction::steep};
+  if (options.replicate) {  // the function of the original first: it probably fits best here, too
+    std::stable_partition(functions.begin(), functions.end(), [&](VarianceFunction function) {
+      return function == data.noise.variance;
+    });
+  }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
-  double growth = 1.0;  // of the scale since the fit to the original
   std::vector<double> from(start.begin(), start.end());
   std::vector<VarianceCandidate> candidates;
-  for (const VarianceFunction function :
-       {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture,
-        VarianceFunction::steep}) {
+  const VarianceCandidate* before =
+      nullptr;  // the original under the function of `candidates`.back
+  for (const VarianceFunction function : functions) {
     Observations own = data;
     own.noise.variance = function;
     const auto known = std::find_if(
         data.noise.candidates.begin(), data.noise.candidates.end(),
         [&](const VarianceCandidate& candidate) { return candidate.function == function; });
     const bool again = options.replicate && known != data.noise.candidates.end();
-    if (again) own.noise.scale = growth * known->scale;
-    ReweightedFit result = reweight_with(model, std::move(own), from, options);
+    if (again) {
+      own.noise.scale = known->scale;
+      from = known->theta;
+      // The replicate differs from its original by about as much under every function.
+      if (before != nullptr) {
+        const VarianceCandidate& now = candidates.back();
+        own.noise.scale *= now.scale / before->scale;
+        own.noise.event_spread = now.event_spread;
+        for (std::size_t j = 0; j < from.size(); ++j) {
+          const ParameterSlot& slot = model.slots[j];
+          if (!slot.moves()) continue;
+          from[j] = std::clamp(from[j] + now.theta[j] - before->theta[j], slot.lower, slot.upper);
+        }
+      }
+    }
+    const double limit =
+        options.replicate ? best_criterion + far_behind - penalty_of(function) : INFINITY;
+    ReweightedFit result = reweight_with(model, std::move(own), from, options, limit);
     if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
     }
-    if (again) {
-      from = result.run.theta;
-      data.noise.event_spread = result.data.noise.event_spread;
-      growth = result.data.noise.scale / known->scale;
-    }
+    const NoiseModel& noise = result.data.noise;
     const double criterion = restricted_criterion(model, result);
-    candidates.push_back({function, result.data.noise.scale, criterion});
-    if (criterion + penalty_of(function) < best_criterion) {
-      best_criterion = criterion + penalty_of(function);
+    const double total = criterion + penalty_of(function);
+    if (again && !(total > limit)) before = &*known;
+    if (!again || before == &*known) {
+      candidates.push_back(
+          {function, noise.scale, criterion, noise.event_spread, result.run.theta});
+    }
+    if (total < best_criterion) {
+      best_criterion = total;
       best = std::move(result);
     }
   }

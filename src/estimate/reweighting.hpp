@@ -23,7 +23,7 @@ struct ReweightingOptions {
   double parameters = 1e-3;  ///< rounds end when no parameter moves by more, in standard errors,
   double scale = 1e-4;       ///< and the estimated scale by no more, relative
   /// The data are a replicate of a fit with these `candidates`: every variance function begins with
-  /// its scale there and where the function before it ended.
+  /// its scale and parameters there, moved as those of the function before it have moved.
   bool replicate = false;
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 // More points than this are searched by a part of them, about half as many: the starts need a rough
 // answer each, and all points only the last steps.
-constexpr std::size_t many_points = 20000;
-constexpr std::size_t searched_of_many = 10000;
+constexpr std::size_t many_points = 500;
+constexpr std::size_t searched_of_many = 250;
 
 /// Adds `first` with the damping factors ten times smaller and larger in all combinations: capture
 /// and strong damping make flat and non-convex regions on either side.

@@ -1,7 +1,10 @@
 #include "estimate/weights.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/numerics.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -67,7 +70,7 @@ class Renewal {
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
 
-  /// Where the answers of the model are needed.
+  /// Where the answers of the model are needed beside the points.
   std::vector<PointConditions> questions() const {
     std::vector<PointConditions> all;
     const auto beside = [&](const Observation& p, double h, bool in_velocity) {
@@ -77,7 +80,6 @@ class Renewal {
       }
     };
     for (const Observation& p : data_.points) {
-      all.push_back(p.conditions());
       if (everything_ && p.velocity_sd > 0.0)
         beside(p, error_step(p.velocity_sd / p.velocity), true);
       if (everything_ && p.setting_velocity_sd > 0.0)
@@ -90,35 +92,33 @@ class Renewal {
     return all;
   }
 
-  /// @returns the predicted e^2 of the points
-  std::vector<double> learn(const std::vector<Prediction>& answers) {
-    auto next = answers.begin();
+  /// @param at the predicted e^2 of the points
+  /// @param beside the answers to `questions`
+  void learn(const std::vector<double>& at, const std::vector<Prediction>& beside) {
+    auto next = beside.begin();
     const auto value = [&] { return (next++)->restitution_squared; };
     const auto local = [&](double middle, double h) {
       const double more = value();
       const double less = value();
       return Local{middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)};
     };
-    std::vector<double> predicted;
     std::vector<Local> locals;
-    for (Observation& point : data_.points) {
-      const double m = value();
-      predicted.push_back(m);
-      if (everything_) set_errors(point, m, local);
-      if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (everything_) set_errors(data_.points[i], at[i], local);
+      if (mixed_) locals.push_back(local(at[i], std::sqrt(3.0) * data_.noise.event_spread));
     }
     if (mixed_) estimate_scatter(locals);
-    return predicted;
   }
 
   /// The data with event_spread times `factor` and nothing else changed.
-  Observations with_spread(const std::vector<Prediction>& answers, double factor) const {
+  Observations with_spread(const std::vector<double>& at, const std::vector<Prediction>& beside,
+                           double factor) const {
     Observations changed = data_;
     changed.noise.event_spread *= factor;
     for (std::size_t i = 0; i < changed.points.size(); ++i) {
-      const double middle = answers[3 * i].restitution_squared;
-      const double more = answers[3 * i + 1].restitution_squared;
-      const double less = answers[3 * i + 2].restitution_squared;
+      const double middle = at[i];
+      const double more = beside[2 * i].restitution_squared;
+      const double less = beside[2 * i + 1].restitution_squared;
       const double h = std::sqrt(3.0) * data_.noise.event_spread;
       Observation& point = changed.points[i];
       if (!(point.weights.scatter > 0.0)) continue;
@@ -220,12 +220,32 @@ class Renewal {
     }
   }
 
-  /// The minimum of the deviance in ln omega: near the omega of the round before or, where that
-  /// lies on a slope, anywhere; by the golden section.
+  /// The minimum of the deviance in ln omega: near the omega of the round before, by parabolas
+  /// and, where these fail, by the golden section; where that ends on a slope, anywhere.
   double lowest(const std::vector<Local>& locals) const {
     const double before = std::log(data_.noise.event_spread);
     constexpr double tolerance = 1e-3;  // of omega, relative
     const auto at = [&](double log_spread) { return deviance(locals, log_spread); };
+    constexpr int most_parabolas = 5;
+    constexpr double width = 0.02;  // of a parabola, to either side
+    double place = before;
+    double lowest_value = at(place);
+    for (int i = 0; i < most_parabolas; ++i) {
+      const double more = at(place + width);
+      const double less = at(place - width);
+      const double bend = (more - 2.0 * lowest_value + less) / (width * width);
+      const double step = -(more - less) / (2.0 * width) / bend;
+      const double next = place + step;
+      if (!(bend > 0.0) || !(std::abs(next - before) < 0.95 * near_reach) ||
+          !(next > std::log(least_spread)) || !(next < std::log(largest_spread))) {
+        break;
+      }
+      if (std::abs(step) < tolerance) return next;
+      const double there = at(next);
+      if (!(there < lowest_value)) break;
+      place = next;
+      lowest_value = there;
+    }
     const double near =
         find_minimum(at, std::max(before - near_reach, std::log(least_spread)),
                      std::min(before + near_reach, std::log(largest_spread)), tolerance);
@@ -255,36 +275,66 @@ class Renewal {
 
 namespace {
 
-std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<const double> theta,
-                                         Renewal renewal) {
-  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
-  for (const Prediction& answer : answers) {
+/// The model's e^2 at the points of some data, and its answers to the questions beside them.
+struct Answers {
+  std::vector<double> at;
+  std::vector<Prediction> beside;
+};
+
+/// Nothing when the model has no answer somewhere. A fit asks `points` for the same theta with
+/// gradients next: few points are asked for them at once.
+std::optional<Answers> ask(const ImpactModel& model, std::span<const double> theta,
+                           PointPredictor& points, std::vector<PointConditions> questions) {
+  Answers answers{std::vector<double>(points.size()), {}};
+  std::atomic<bool> answered = true;
+  const auto take = [&](std::size_t first, std::span<const ImpactResult> block) {
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      if (!block[k].usable()) answered = false;
+      answers.at[first + k] = block[k].restitution_squared;
+    }
+  };
+  points.evaluate_blocks(theta, points.keeps_answers(), take);
+  if (!answered) return std::nullopt;
+  if (!questions.empty()) answers.beside = predict(model, theta, std::move(questions), false);
+  for (const Prediction& answer : answers.beside) {
     if (!answer.usable()) return std::nullopt;
   }
-  return renewal.learn(answers);
+  return answers;
 }
 
 }  // namespace
 
 std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
                                                  std::span<const double> theta,
-                                                 Observations& data) {
+                                                 PointPredictor& points, Observations& data) {
   if (!data.sd_stated) {
+    double capture = 0.0;  // of the points of one size in turn
+    const Observation* before = nullptr;
     for (Observation& point : data.points) {
-      const double ratio =
-          weakly_damped_capture(model, theta, point.dataset, point.diameter) / point.velocity;
-      point.weights.proximity = std::min(1.0, ratio * ratio);
+      if (before == nullptr || before->dataset != point.dataset ||
+          before->diameter != point.diameter) {
+        capture = weakly_damped_capture(model, theta, point.dataset, point.diameter);
+      }
+      before = &point;
+      point.weights.proximity = std::min(1.0, std::pow(capture / point.velocity, 2));
     }
   }
-  auto predicted = renew(model, theta, Renewal(data));
-  if (predicted) renew_settings(*predicted, model.free_count(), data);
-  return predicted;
+  Renewal renewal(data);
+  auto answers = ask(model, theta, points, renewal.questions());
+  if (!answers) return std::nullopt;
+  renewal.learn(answers->at, answers->beside);
+  renew_settings(answers->at, model.free_count(), data);
+  return std::move(answers->at);
 }
 
 bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
                         Observations& data) {
   if (!(data.noise.event_spread > 0.0)) return true;
-  return renew(model, theta, Renewal(data, Renewal::What::event_spread)).has_value();
+  Renewal renewal(data, Renewal::What::event_spread);
+  PointPredictor points(model, data.conditions());
+  const auto answers = ask(model, theta, points, renewal.questions());
+  if (answers) renewal.learn(answers->at, answers->beside);
+  return answers.has_value();
 }
 
 std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
@@ -292,18 +342,17 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
   if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
   Observations own = data;
   const Renewal renewal(own, Renewal::What::event_spread);
-  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
-  for (const Prediction& answer : answers) {
-    if (!answer.usable()) return {};
-  }
+  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
+  const auto answers = ask(model, theta, *points, renewal.questions());
+  if (!answers) return {};
   const std::size_t n = data.points.size();
   const std::size_t p = theta.size();
   constexpr double step = 0.1;
   std::vector<double> deviance;             // T at ln omega - step, 0, + step
   std::vector<std::vector<double>> slopes;  // half of dT / d theta there
   for (const double by : {-step, 0.0, step}) {
-    const Observations there = renewal.with_spread(answers, std::exp(by));
-    const LeastSquaresProblem problem = impact_problem(model, there);
+    const Observations there = renewal.with_spread(answers->at, answers->beside, std::exp(by));
+    const LeastSquaresProblem problem = impact_problem(model, there, nullptr, points);
     std::vector<double> residuals(problem.residual_count);
     std::vector<double> jacobian(problem.residual_count * p);
     if (!problem.evaluate(theta, residuals, jacobian)) return {};

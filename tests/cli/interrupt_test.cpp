@@ -133,7 +133,7 @@ TEST(Interrupt, WhatAnotherRunLeftIsNotMistakenForOurs) {
 TEST(Scheme, TheCommandLineAndTheFitFileChoose) {
   const Workplace place;
   ASSERT_EQ(
-      place.run({"fit", "fit.toml", "--out", "a", "--scheme", "wild", "--replicates", "59"}).status,
+      place.run({"fit", "fit.toml", "--out", "a", "--scheme", "wild", "--replicates", "39"}).status,
       0);
   place.change("fit.toml", "replicates = 39", "replicates = 39\nscheme = \"case\"");
   ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "b"}).status, 0);

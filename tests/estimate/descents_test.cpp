@@ -204,6 +204,33 @@ TEST(ManyRows, KeepTheirSumsAndTheirCovariance) {
   }
 }
 
+TEST(GaussNewton, LeavesAMinimumJustBeyondABoundToTheDescentInTheBox) {
+  // r = (x - 1, x + 1 + 2 b): the sum of squares is least at x = -b, where the standard error is
+  // sqrt(s^2 / 2) with s^2 = 2 (1 + b)^2 for one degree of freedom.
+  const double b = 0.1;
+  LeastSquaresProblem problem;
+  problem.residual_count = 2;
+  problem.lower = {0.0};
+  problem.upper = {10.0};
+  problem.log_scale = {false};
+  problem.evaluate = [b](std::span<const double> x, std::span<double> r, std::span<double> J) {
+    r[0] = x[0] - 1.0;
+    r[1] = x[0] + 1.0 + 2.0 * b;
+    if (!J.empty()) J[0] = J[1] = 1.0;
+    return true;
+  };
+  LeastSquaresOptions options;
+  options.finish = false;
+  options.strategies = {Strategy::gauss_newton, Strategy::box_descent};
+  for (const double close_enough : {1e-6, 0.3, 1.0}) {
+    options.close_enough = close_enough;
+    const LeastSquaresResult result = minimise(problem, std::vector<double>{0.05}, options);
+    ASSERT_TRUE(result.ended());
+    EXPECT_EQ(result.theta[0], 0.0) << close_enough;
+    EXPECT_NEAR(result.sum_of_squares, 1.0 + std::pow(1.0 + 2.0 * b, 2), 1e-12);
+  }
+}
+
 /// The points of a small design many times over, with errors of their own.
 Observations many_points(const Dataset& dataset, int times) {
   Observations data = gather({dataset});

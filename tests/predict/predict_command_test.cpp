@@ -11,7 +11,7 @@ namespace {
 using support::Outcome;
 using support::Workplace;
 
-const std::vector<std::string> kQuick = {"--replicates", "59", "--threads", "2"};
+const std::vector<std::string> kQuick = {"--replicates", "39", "--threads", "2"};
 
 std::vector<std::string> command(std::vector<std::string> words) {
   words.insert(words.end(), kQuick.begin(), kQuick.end());
@@ -49,7 +49,7 @@ TEST(Predict, TheSameBytesAtAnyThreadCount) {
   place.write("sizes.csv", "lower,upper,count\n2,3,30\n3,5,50\n");
   for (const char* threads : {"1", "3"}) {
     const Outcome run = place.run({"predict", "fit.toml", "--sizes", "sizes.csv", "--out", threads,
-                                   "--replicates", "59", "--threads", threads, "--height", "2"});
+                                   "--replicates", "39", "--threads", threads, "--height", "2"});
     ASSERT_EQ(run.status, 0) << run.err;
   }
   EXPECT_EQ(place.read("1/predict.json"), place.read("3/predict.json"));
