@@ -42,18 +42,18 @@ struct ClusterJob {
 };
 
 const char* const shard_script = R"(#!/bin/sh
-# One of @SHARDS@ shards: sh shard.sh NUMBER, from 1. It leaves one file in the folder, whole or not at
-# all; to run it twice, or where it was killed, costs nothing but its time.
+# Runs one of @SHARDS@ shards: sh shard.sh NUMBER, from 1. It writes one complete file into the folder,
+# or none. It can be repeated safely.
 number=$1
 folder=@FOLDER@
 cd @WHERE@ || exit 1
-# Input that was refused (exit status 2) would be refused again.
+# Do not repeat a shard whose input recoil has rejected (exit status 2).
 [ -e "$folder/refused-$number" ] && exit 2
 @RECOIL@ @WORDS@ \
   --shard "$number/@SHARDS@" --out "$folder" --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" &
 child=$!
-# A time limit or an eviction: recoil keeps what is finished and ends. Some systems send SIGTERM to
-# every process and some to this one alone; beside a SIGTERM, SIGUSR1 counts as the same request.
+# At a time limit or an eviction, recoil keeps finished work and ends. Some systems send SIGTERM to
+# every process, some only to this one. recoil counts SIGTERM and SIGUSR1 together as one request.
 trap 'kill -USR1 "$child" 2>/dev/null' TERM INT USR1
 wait "$child"
 status=$?
@@ -78,8 +78,8 @@ exec sh @FOLDER@/shard.sh "$SLURM_ARRAY_TASK_ID"
 )";
 
 const char* const slurm_run = R"(#!/bin/sh
-# Starts the job: sh run.sh. It submits the shards that are missing, and itself to run after them,
-# whatever became of them; once none is missing it merges them. Started again it goes on.
+# Starts the job: sh run.sh. It submits the missing shards, and itself to run after they have ended,
+# with or without success. When no shard is missing, it merges them. Run it again to continue.
 #SBATCH --job-name=recoil-merge
 #SBATCH --cpus-per-task=@CPUS@
 #SBATCH --time=@TIME@
@@ -108,7 +108,7 @@ if [ -z "$missing" ]; then
   exec "$recoil" merge "$folder" --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >"$folder/result.txt"
 fi
 if [ "$round" -gt "$rounds" ]; then
-  echo "after $rounds rounds these are missing: $missing" >&2
+  echo "after $rounds rounds these shards are missing: $missing" >&2
   exit 3
 fi
 echo "round $round: $missing"
@@ -118,14 +118,14 @@ sbatch --dependency="afterany:${job%%;*}" "$folder/run.sh" $((round + 1))
 )";
 
 const char* const merge_script = R"(#!/bin/sh
-# Puts the parts together; what is missing is told, and run again by starting the job again.
+# Merges the shards. It lists missing shards; start the job again to run them.
 cd @WHERE@ || exit 1
 @RECOIL@ merge @FOLDER@ >@FOLDER@/result.txt
 )";
 
 const char* const parallel_run = R"(#!/bin/sh
-# Starts the job: sh run.sh. Shards that are there are not run again. For several machines give
-# parallel their names (--sshlogin, --sshloginfile); they share this folder.
+# Starts the job: sh run.sh. Finished shards are not run again. To use several machines, give parallel
+# their names (--sshlogin, --sshloginfile); they must share this folder.
 folder=@FOLDER@
 seq @SHARDS@ | parallel --jobs @JOBS@ --retries 5 --joblog "$folder/parallel.log" \
   "sh {2}/shard.sh {1} >>{2}/log-{1}.txt 2>&1" :::: - ::: "$folder"
@@ -202,15 +202,15 @@ const char* const shareable[] = {"fit", "coverage", "diagnose"};
 /// the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
   if (words.empty()) {
-    throw InputError({}, "there is nothing to run", "a fit file or a command is missing",
+    throw InputError({}, "there is no command to run", "a fit file or a command is missing",
                      "see recoil cluster --help");
   }
   if (std::none_of(std::begin(shareable), std::end(shareable),
                    [&](const char* name) { return words.front() == name; })) {
     if (fs::path(words.front()).extension().empty() && !fs::exists(words.front())) {
       throw InputError({}, fmt::format("{} does not run in shards", words.front()),
-                       "it is neither a fit file nor one of the commands that do",
-                       fmt::format("those are {}", fmt::join(shareable, ", ")));
+                       "it is neither a fit file nor a command that does",
+                       fmt::format("commands in shards: {}", fmt::join(shareable, ", ")));
     }
     words.insert(words.begin(), "fit");
   }
@@ -225,7 +225,7 @@ void require_valid(const std::vector<std::string>& words) {
           return word == own || word.starts_with(std::string(own) + "=");
         })) {
       throw InputError({}, fmt::format("{} is set by the scripts", own), "",
-                       "leave it out; --cpus says how many threads each shard has");
+                       "leave it out; --cpus sets the threads of each shard");
     }
   }
   Program trial("", "", "");
@@ -247,7 +247,7 @@ std::string complaint_about_time(const std::string& text) {
   const std::optional<long> seconds = seconds_named(text);
   return seconds && *seconds >= shortest_time
              ? ""
-             : fmt::format("{} is not hours:minutes:seconds from 00:10:00 on", text);
+             : fmt::format("{} is not hours:minutes:seconds, at least 00:10:00", text);
 }
 
 void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& words) {
@@ -284,24 +284,23 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
     print_text("note: Slurm takes at most {} shards where its MaxArraySize is the usual {}\n",
                usual_limit, usual_limit + 1);
   }
-  print_text("Read them, edit them, and start the job: sh {}\n",
-             shell_word((fs::path(flags.out) / "run.sh").string()));
+  print_text("To start the job: sh {}\n", shell_word((fs::path(flags.out) / "run.sh").string()));
 }
 
 }  // namespace
 
 void add_cluster(Program& program) {
   const Command command = program.command(
-      "cluster", "write the scripts that run a command in shards on a cluster, and its merge");
+      "cluster", "write scripts that run a command in shards on a cluster and merge the shards");
   command.footer(
-      "Behind its own words stands a fit file, or a command with its options: fit, coverage\n"
-      "or diagnose.\n"
-      "The scripts are plain, and yours to edit. All machines see the folder, the program and the\n"
-      "data at the same paths.\n\n"
+      "Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit "
+      "the\n"
+      "scripts. All machines must find the folder, the program and the data under the same paths.\n"
+      "\n"
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
       "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
   const auto flags = std::make_shared<ClusterFlags>();
-  command.option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
+  command.option("SYSTEM", flags->system, "slurm, or parallel (GNU parallel)")
       .required()
       .one_of(all_names<ClusterSystem>());
   command.option("--shards", flags->shards, "how many").required().within(1, most_shards);
@@ -310,7 +309,8 @@ void add_cluster(Program& program) {
       .takes("DIR");
   command.option("--cpus", flags->cpus, "threads of each shard").shows_default().within(1, 4096);
   command
-      .option("--time", flags->time, "limit of each shard, hours:minutes:seconds, 00:10:00 or more")
+      .option("--time", flags->time,
+              "time limit of each shard, hours:minutes:seconds, at least 00:10:00")
       .shows_default()
       .check(complaint_about_time);
   command.allows_other_words();

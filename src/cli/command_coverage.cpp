@@ -62,7 +62,7 @@ std::string percentage(int part, int whole) {
 
 std::string truth_words(TruthOrigin origin) {
   return origin == TruthOrigin::recipe
-             ? "truth and noise from the recipe, another seed for each"
+             ? "truth and noise from the recipe, with a different seed for each"
              : "the fit's own estimate as truth, simulated independently of the fitter";
 }
 
@@ -143,14 +143,16 @@ void add_coverage(Program& program) {
   const Command command =
       program.command("coverage", "measure how often the intervals contain the truth");
   command.footer(
-      "Simulates the design of the fit again and again with the fitted values as the truth, fits\n"
-      "each data set as you would, and counts how often the intervals contain the truth. Prints\n"
-      "Markdown. With --out Ctrl-C keeps what is finished, and the same "
-      "command goes on\n"
-      "from there.\n\n"
-      "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n\n"
-      "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
-      "authors: ./run study, or recoil_study --help.");
+      "Simulates data sets of the same design with the fitted values as the truth, fits each of "
+      "them,\n"
+      "and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C "
+      "keeps\n"
+      "finished work, and the same command then continues.\n"
+      "\n"
+      "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n"
+      "\n"
+      "The study program covers grids of designs and several fits: ./run study, or\n"
+      "recoil_study --help.");
   const auto options = std::make_shared<Options>();
   add_fit_file(command, options->fit_file);
   command.option("--datasets", options->datasets, "simulated data sets")
@@ -158,7 +160,7 @@ void add_coverage(Program& program) {
       .within(1, 1000000);
   command
       .option("--out", options->out,
-              "also write the table to this file; with --shard, the folder of the parts")
+              "also write the table to this file; with --shard: folder for the shards")
       .takes("FILE");
   add_shard_flags(command, "data sets", options->shards);
 

@@ -137,22 +137,21 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 
 void add_diagnose(Program& program) {
   const Command command = program.command(
-      "diagnose", "what the model gets wrong, why, and what an extended model gains");
+      "diagnose", "find what the model gets wrong and why, and what an extended model gains");
   command.footer(
-      "Tests the residuals of the fit for structure, tries every mechanism of the catalogue "
-      "(alone,\n"
-      "then two at a time), and answers with one of\n"
-      "  adequate        nothing systematic is left\n"
-      "  cause_named     one cause explains it, and nothing else in the catalogue does\n"
-      "  not_separable   several causes explain it: which ones, and what to measure to decide\n"
-      "  unexplained     something is there that the catalogue does not know, or the errors are "
-      "larger\n"
-      "                  than stated\n"
+      "Tests the residuals of the fit for structure and tries every mechanism of the catalogue, "
+      "alone\n"
+      "and in pairs. The verdict is one of\n"
+      "  adequate        the residuals show no structure\n"
+      "  cause_named     exactly one cause of the catalogue explains the misfit\n"
+      "  not_separable   several causes explain it; recoil lists them and proposes an experiment\n"
+      "  unexplained     no cause of the catalogue explains it, or the errors are larger than "
+      "stated\n"
       "With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a "
       "fit\n"
-      "file of the extended model). Ctrl-C keeps what is finished in DIR, and the same command "
-      "goes on\n"
-      "from there.\n\n"
+      "file of the extended model). Ctrl-C keeps finished work in DIR; the same command then\n"
+      "continues.\n"
+      "\n"
       "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();
@@ -163,9 +162,9 @@ void add_diagnose(Program& program) {
   add_seed(command, flags->seed, "the simulated data sets");
   command
       .option("--rates", flags->rates,
-              "also find what these points could have shown: so many data sets are simulated and "
-              "diagnosed for each cause that is named or listed, at its effect and at half of it, "
-              "and for none")
+              "also measure the error rates of the diagnosis for this design: simulate and "
+              "diagnose this many data sets for each cause that is named or listed, at full and at "
+              "half strength, and for no cause")
       .within(1, 1000000);
   add_shard_flags(command, "data sets", flags->shards);
   add_json_flag(command, flags->json);

@@ -122,7 +122,7 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
     if (!(request.slowest < request.fastest)) {
       throw InputError(
           {}, fmt::format("--velocity {:g},{:g} is not a range", request.slowest, request.fastest),
-          "the first number has to be the smaller one", "for example --velocity 1,50");
+          "the first number must be the smaller one", "for example --velocity 1,50");
     }
   }
   const std::vector<double> sizes = distinct_diameters(dataset);
@@ -219,11 +219,13 @@ void run_export(const ExportOptions& options) {
 
   for (const std::string& line : job.heading) print_text("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
-    print_line(fmt::format("note: no --diameter was given; {:g} um is the middle one of {} sizes",
+    print_line(fmt::format("note: without --diameter, {:g} um is used, the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));
   }
   if (target == ExportTarget::table && fitted.replicates.empty()) {
-    print_line("note: without bands, which need the bootstrap: leave --parameters out");
+    print_line(
+        "note: the table has no bands, because bands need the bootstrap; leave --parameters out to "
+        "get them");
   }
   for (const ExportedFile& file : files) {
     print_text("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
@@ -234,14 +236,16 @@ void run_export(const ExportOptions& options) {
 }  // namespace
 
 void add_export(Program& program) {
-  const Command command =
-      program.command("export", "a fitted impact as the input of another program, or as a table");
+  const Command command = program.command(
+      "export", "write a fitted impact as input for another program, or as a table");
   command.footer(
-      "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. Where the\n"
-      "program can run the force law (lammps, yade) the export is exact; where it has\n"
-      "only contact models of its own (liggghts) it gets the nearest one, with its error; "
-      "openfoam,\n"
-      "fluent and table get e(V, d) with captures. The file says what is lost.\n\n"
+      "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and\n"
+      "YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its "
+      "own\n"
+      "contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) "
+      "with\n"
+      "captures. Every file states what it leaves out.\n"
+      "\n"
       "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
       "  lmp -in my-lammps/impact.lammps -var V 2.4");
   const auto options = std::make_shared<ExportOptions>();
@@ -261,8 +265,8 @@ void add_export(Program& program) {
       .takes("MIN,MAX")
       .within(1e-7, 1e4, "velocity");
   command.flag("--stock", options->stock,
-               "lammps, yade (liggghts always): write the nearest of the program's own "
-               "contact models, for many spheres, even where it could run the force law");
+               "lammps, yade: write the nearest of the program's own contact models, for many "
+               "spheres, instead of the force law (liggghts: always)");
   command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       .takes("ID");
   command.option("--parameters", options->parameters, "take the values from this fit.json")

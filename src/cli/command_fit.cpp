@@ -78,8 +78,10 @@ void add_fit(Program& program) {
       program.command("fit", "fit all points, with intervals and the two-point comparison");
   command.footer(
       "Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the\n"
-      "data and the seed, not on the number of threads. Ctrl-C keeps finished replicates in DIR,\n"
-      "and the same command goes on from there.\n\n"
+      "data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in "
+      "DIR;\n"
+      "the same command then continues.\n"
+      "\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_file(command, flags->fit_file);

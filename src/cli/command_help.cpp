@@ -15,7 +15,9 @@ namespace recoil {
 namespace {
 
 void list_topics() {
-  print_text("Pages of the manual; recoil help TOPIC prints one.\n\n");
+  print_text(
+      "Pages of the manual (recoil help TOPIC prints one):\n"
+      "\n");
   std::size_t width = 0;
   for (const ManualPage& page : manual_pages()) width = std::max(width, page.topic.size());
   for (const ManualPage& page : manual_pages()) {
@@ -41,7 +43,7 @@ void print_topic(const Program& program, const std::string& topic) {
   const std::string near = nearest_word(topic, known);
   throw InputError(
       {}, fmt::format("the manual has no page {}", quote(topic)), "",
-      near.empty() ? "see recoil help for the pages" : fmt::format("did you mean {}?", near));
+      near.empty() ? "recoil help lists the pages" : fmt::format("did you mean {}?", near));
 }
 
 /// Brings the tables that are made from the code up to date in every page of
@@ -70,12 +72,13 @@ void add_help(Program& program) {
   };
   const auto options = std::make_shared<Options>();
   const Command command = program.command("help", "print a page of the manual");
-  command.option("TOPIC", options->topic, "the page; without it, the list of all");
+  command.option("TOPIC", options->topic, "name of the page (default: list all pages)");
   command.option("--write-docs", options->folder, "the tables that are made from the code")
       .takes("DIR")
       .hidden();
   command.footer(
-      "The pages are those of docs/, embedded in the program.\n\n"
+      "The program contains the pages of docs/.\n"
+      "\n"
       "  recoil help\n"
       "  recoil help noise");
   command.runs([options, &program] {

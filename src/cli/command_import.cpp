@@ -57,7 +57,7 @@ void require_used(const Command& command, ImportFormat format) {
     for (const ImportFormat its : one.formats) names.push_back(name_of(its));
     throw InputError(
         {}, fmt::format("{} does nothing with --format {}", option, name_of(format)),
-        fmt::format("it belongs to {}", fmt::join(names, " and ")),
+        fmt::format("it is an option of {}", fmt::join(names, " and ")),
         "leave it out; a column of the file is named by --map, as restitution_sd=COLUMN");
   }
 }
@@ -95,16 +95,15 @@ void run_import(ImportFlags flags, const Command& command) {
 void add_import(Program& program) {
   const Command command = program.command(
       "import",
-      "make a dataset folder of digitised points, drop heights, bounce times or any table");
+      "make a dataset folder from digitised points, drop heights, bounce times or any table");
   command.footer(
       "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
       "(between\n"
-      "bounces), track (heights over time) and csv. --map ties columns to quantities, with units: "
-      "um, mm, cm, m, in; m/s, "
-      "km/h;\n"
-      "s, ms; % (recoil help data). What neither file nor options say is asked for; nothing is "
-      "overwritten "
-      "unasked.\n\n"
+      "bounces), track (heights over time) and csv. --map assigns columns to quantities, with "
+      "units: um, mm, cm, m, in; m/s, km/h;\n"
+      "s, ms; % (recoil help data). On a terminal, import asks for what is missing. It overwrites "
+      "points only with --replace.\n"
+      "\n"
       "  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \\\n"
       "    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like "
       "datasets/wall1990-mica\n"
@@ -125,18 +124,18 @@ void add_import(Program& program) {
       .required();
   command.option("--into", flags->into, "the dataset's folder").required();
   command.flag("--replace", r.replace,
-               "replace the points of the existing dataset; it keeps its materials, and a "
-               "reconstruction becomes digitised");
+               "replace the points of an existing dataset and keep its materials; a reconstruction "
+               "becomes digitised");
   command
       .option("--map", r.map,
-              "quantity=column:unit, several separated by commas; quantity=a+b+c for repeats in "
-              "columns, quantity=100cm for a constant; a unit may have a factor, as 0.35mm")
+              "quantity=column:unit, separated by commas; quantity=a+b+c for repeats in several "
+              "columns; quantity=100cm for a constant; a unit may have a factor (0.35mm)")
       .repeats();
-  command.flag("--decimal-comma", r.decimal_comma, "numbers are written 2,5");
+  command.flag("--decimal-comma", r.decimal_comma, "the decimal mark is a comma (2,5)");
   command
       .option("--sd-of", r.sd_of,
-              "the standard deviations of a table are those of one impact, or of the mean of a "
-              "point's events")
+              "whether the stated standard deviations are those of one impact or of the mean of "
+              "all events of a point")
       .one_of({"one", "mean"});
   command
       .option("--diameter", r.diameters,
@@ -144,7 +143,7 @@ void add_import(Program& program) {
       .repeats();
   command.option("--diameter-error", r.diameter_error,
                  "one standard deviation of the diameters: 1% or 0.1um");
-  command.option("--series", r.series, "name of the series when the file has none");
+  command.option("--series", r.series, "name of the series if the file has none");
   command.option("--particle", r.particle,
                  "the sphere: a name (recoil materials), a JSON file, or "
                  "material=...,density=...,youngs_modulus=...,poisson_ratio=...");
@@ -160,7 +159,7 @@ void add_import(Program& program) {
       .one_of({"measured", "digitised", "synthetic"});
   command.option("--title", r.title, "title of the dataset");
   command
-      .option("--source", r.sources, "who published or measured the points; once for each source")
+      .option("--source", r.sources, "who measured or published the points; once for each source")
       .repeats();
   command
       .option("--axis", r.axes,
@@ -177,7 +176,7 @@ void add_import(Program& program) {
                  "scatter of e in addition to the errors of reading: 10%, or 0.02");
   command
       .option("--captured-below", r.captured_below,
-              "a restitution below this is a capture (digitised points, heights)")
+              "count a restitution below this as a capture (digitised points, heights)")
       .within(0.0, 1.0);
   command.option("--drop-error", r.drop_error,
                  "one standard deviation of the drop or release height: 1mm or 1%");
@@ -189,20 +188,21 @@ void add_import(Program& program) {
   command.option("--gravity", r.gravity, "gravity [m/s2]").shows_default();
   command
       .option("--ambient-pressure", r.ambient_pressure,
-              "pressure of the air [Pa], whose drag is taken out of heights and intervals (default "
+              "air pressure [Pa], to remove the effect of drag from heights and intervals (default "
               "101325); 0: vacuum")
       .within(0.0, limits::pressure.upper);
-  command.option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
+  command.option("--temperature", r.temperature, "air temperature [K] (default 293)")
       .within(limits::temperature.lower, limits::temperature.upper);
   command.option("--fps", r.fps, "frames per second of a track").within(1e-3, 1e9, "fps");
   command.option("--scale", r.scale,
                  "length of a pixel of a track: 0.4mm (default: the fall under gravity gives it)");
-  command.option("--method", r.method, "how velocities were measured (default: by the format)")
+  command
+      .option("--method", r.method, "how velocities were measured (default: depends on the format)")
       .one_of({"velocimeter", "drop_heights", "bounce_intervals", "video", "unknown"});
   command
       .option("--condition", r.conditions,
-              "NAME=VALUE under which all points were taken: target_thickness=5mm, "
-              "relative_humidity=40% (recoil help data)")
+              "condition NAME=VALUE of all points: target_thickness=5mm, relative_humidity=40% "
+              "(recoil help data)")
       .repeats();
   command.runs([flags, command] { run_import(*flags, command); });
 }

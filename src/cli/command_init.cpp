@@ -53,7 +53,7 @@ std::string ask(const std::string& question, const std::string& otherwise = "") 
   std::fflush(stdout);
   std::string answer;
   if (!std::getline(std::cin, answer))
-    throw InputError({}, "the questions were not answered", "", "");
+    throw InputError({}, "the input ended before all questions were answered", "", "");
   return answer.empty() ? otherwise : answer;
 }
 
@@ -150,7 +150,7 @@ Dataset make_example(ImportRequest request, double diameter) {
   request.provenance = Provenance::synthetic;
   request.title = "An example";
   request.sources = {
-      "Computed by recoil init from the model, with noise: put your own points in their place"};
+      "Computed by recoil init from the model, with noise: replace these points by yours"};
   request.sd_of = "mean";
   request.text = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
   request.map = map_of(request.text);
@@ -199,8 +199,8 @@ void run_init(InitOptions options) {
   made.stay();
   print_text("{}: {} points{}\n", folder.string(), dataset.points.size(),
              options.points.empty()
-                 ? ", SYNTHETIC: computed from the model, with noise. Put your own into "
-                   "points.csv and their provenance into datapackage.json"
+                 ? ", SYNTHETIC: computed from the model, with noise. Write your points to "
+                   "points.csv and their provenance to datapackage.json"
                  : "");
   print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
              folder.string());
@@ -209,12 +209,12 @@ void run_init(InitOptions options) {
 }  // namespace
 
 void add_init(Program& program) {
-  const Command command = program.command("init", "a new dataset folder, with a fit that runs");
+  const Command command = program.command("init", "make a new dataset folder and a fit file");
   command.footer(
-      "What the options do not say is asked for on a terminal. Without --points the folder gets "
-      "an\n"
-      "example that the model itself makes, labelled synthetic, to be replaced. Nothing is\n"
-      "overwritten. Other forms of data (figures, heights, bounces): recoil help import.\n\n"
+      "On a terminal, init asks for what the options leave out. Without --points the folder gets\n"
+      "example points, which the model computes and which are labelled synthetic. Nothing is\n"
+      "overwritten. For figures, drop heights and bounce times: recoil help import.\n"
+      "\n"
       "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
       "  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \\\n"
       "    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 "
@@ -224,8 +224,8 @@ void add_init(Program& program) {
   command.option("DIR", options->folder, "the new folder").required();
   command
       .option("--points", options->points,
-              "the points (CSV): incident_velocity, restitution and any other column that recoil "
-              "help data names (default: an example)")
+              "the points (CSV) with incident_velocity, restitution and any other column of recoil "
+              "help data (default: example points)")
       .takes("FILE");
   command
       .option("--provenance", options->provenance,

@@ -56,19 +56,20 @@ void merge(const MergeFlags& flags) {
 }  // namespace
 
 void add_merge(Program& program) {
-  const Command command = program.command(
-      "merge", "put the parts of a sharded command together, as if one process had run it");
+  const Command command =
+      program.command("merge", "combine the shards of a command into one result");
   command.footer(
-      "Prints and writes into DIR what the command without --shard would have printed and\n"
-      "written, byte for byte. Parts of other inputs, seeds, commands or builds of recoil are\n"
-      "refused. What is missing is told as Slurm's --array= takes it.\n\n"
+      "Prints and writes to DIR exactly what the command without --shard would have printed and\n"
+      "written. merge rejects shards that come from other inputs, seeds, commands or builds of\n"
+      "recoil. It lists missing shards in the form of Slurm's option --array.\n"
+      "\n"
       "  recoil fit my.toml --shard 1/2 --out parts      on one machine\n"
       "  recoil fit my.toml --shard 2/2 --out parts      on another\n"
       "  recoil merge parts");
   const auto flags = std::make_shared<MergeFlags>();
-  command.option("DIR", flags->folder, "the folder of the parts").required();
+  command.option("DIR", flags->folder, "the folder of the shards").required();
   command.flag("--missing", flags->missing,
-               "only print which shards are missing, as --array=3,7-9; nothing when none is");
+               "only print the missing shards, as --array=3,7-9; print nothing if none is missing");
   add_threads(command, flags->threads);
   command.runs([flags] { merge(*flags); });
 }

@@ -64,20 +64,21 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
 void require_ascending(const std::vector<double>& edges) {
   const char* const advice = "write for example --size-edges 20,40,60,110";
   if (std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>()) != edges.end()) {
-    throw InputError({}, "--size-edges do not ascend", "", advice);
+    throw InputError({}, "--size-edges are not in ascending order", "", advice);
   }
   if (edges.size() == 1) {
-    throw InputError({}, "--size-edges has one value only", "a class has two limits", advice);
+    throw InputError({}, "--size-edges has one value only", "a size class needs two limits",
+                     advice);
   }
 }
 
-/// What the events' own package says, or the option; nothing when neither does.
+/// The provenance from the package of the events, or from the option; empty if neither states it.
 std::optional<Provenance> stated_provenance(const PairCommand& command, const PassageTable& table) {
   const auto stated = value_named<Provenance>(command.provenance);
   if (stated && table.provenance && *stated != *table.provenance) {
     throw InputError(
         {},
-        fmt::format("--provenance {}, but datapackage.json beside the passages says {}",
+        fmt::format("--provenance {}, but datapackage.json beside the passages states {}",
                     command.provenance, to_string(*table.provenance)),
         "", "correct one of them");
   }
@@ -194,22 +195,22 @@ void add_input_options(const Command& app, PairCommand& command) {
 
 void add_search_options(const Command& app, PairCommand& command) {
   app.option("--height", command.arguments.height,
-             "first estimate of the probe plane's height above the surface [mm]")
+             "first estimate of the height of the measuring plane above the surface [mm]")
       .shows_default()
       .within(1e-3, 1e3);
   app.option("--height-range", command.arguments.height_range,
              "the true height lies within this factor of the first estimate")
       .shows_default()
       .within(1.01, 10.0);
-  app.flag("--keep-height", command.arguments.keep_height, "take --height as it is");
-  app.option(
-         "--diameter-tolerance", command.arguments.diameter_tolerance,
-         "largest relative difference of the diameters of one sphere; within it the data decide")
+  app.flag("--keep-height", command.arguments.keep_height, "use --height unchanged");
+  app.option("--diameter-tolerance", command.arguments.diameter_tolerance,
+             "largest relative difference of the two diameters of one sphere; the data set the "
+             "limit below this")
       .shows_default()
       .within(1e-3, 2.0);
-  app.option(
-         "--velocity-tolerance", command.arguments.velocity_tolerance,
-         "largest relative difference between a rebound and its return; within it the data decide")
+  app.option("--velocity-tolerance", command.arguments.velocity_tolerance,
+             "largest relative difference between a rebound and its return; the data set the limit "
+             "below this")
       .shows_default()
       .within(1e-3, 0.5);
 }
@@ -217,16 +218,16 @@ void add_search_options(const Command& app, PairCommand& command) {
 void add_selection_options(const Command& app, PairCommand& command) {
   app.flag("--keep-later", command.arguments.keep_later, "use second and third impacts as well");
   app.option("--threshold", command.arguments.threshold,
-             "leave out incident velocities below this [m/s, at the plane], the paper's way to "
-             "remove second impacts; the effect of the selection is printed")
+             "leave out incident velocities below this [m/s, at the plane], as the paper does to "
+             "remove second impacts; recoil prints the effect")
       .within(0.0, 1e4);
   app.option("--angle", command.arguments.angle,
-             "use only rebounds within this angle of the normal [degrees]; the paper: 8. Needs "
+             "use only rebounds within this angle of the normal [degrees]; the paper uses 8; needs "
              "tangential_velocity")
       .within(0.0, 90.0);
   app.option("--lost-share", command.arguments.lost_share,
-             "share of rebounds that the instrument misses (default: the share of rebounds that it "
-             "did not see on their way down)")
+             "share of rebounds that the instrument misses (default: the share that it misses on "
+             "their way down)")
       .within(0.0, 0.9);
 }
 
@@ -239,7 +240,7 @@ void add_output_options(const Command& app, PairCommand& command) {
   into.needs(like);
   like.needs(into);
   app.option("--provenance", command.provenance,
-             "where the passages come from, if no datapackage.json beside them says so")
+             "where the passages come from, if no datapackage.json beside them states it")
       .one_of(all_names<Provenance>());
   app.option("--per-bin", command.arguments.per_bin, "approximate number of impacts in one point")
       .shows_default()
@@ -256,13 +257,13 @@ void add_output_options(const Command& app, PairCommand& command) {
       .excludes(classes)
       .within(1e-3, 1e6, "diameter");
   app.option("--impacts", command.impacts,
-             "write every impact and every passage without one here (CSV)");
+             "write all impacts and all unpaired passages here (CSV)");
   app.flag("--mean-diameter", command.arguments.mean_diameter,
-           "give every point the mean diameter of all spheres of its series and size class (d10, "
-           "as the paper's points) instead of that of its own impacts");
+           "use the mean diameter of all spheres of a series and size class (d10, as in the paper) "
+           "instead of the mean of each point");
   app.option("--histograms", command.histograms,
              "write histograms and size distributions (CSV) into this folder");
-  app.flag("--replace", command.replace, "replace a points.csv or dataset that is there already");
+  app.flag("--replace", command.replace, "replace an existing points.csv or dataset");
   add_json_flag(app, command.json);
 }
 
@@ -270,18 +271,21 @@ void add_output_options(const Command& app, PairCommand& command) {
 
 void add_pair(Program& program) {
   const Command app = program.command("pair",
-                                      "find the impacts in the passages that a phase Doppler "
-                                      "instrument records, and make points of them");
+                                      "find impacts in the passages that a phase Doppler "
+                                      "instrument records, and average them into points");
   app.footer(
-      "A sphere passes the probe plane on its way down and, if it rebounds, on its way up. The "
-      "time\n"
-      "between is that of free flight to the surface and back, which both velocities and the "
-      "height\n"
-      "of the plane determine. The height is found as the one at which most passages agree; then\n"
-      "each is given to at most one partner, by flight time and diameter. Rebounds that come down\n"
-      "again are later impacts and are left out. Velocities are corrected to the surface,\n"
-      "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. Passages without a rebound are\n"
-      "divided by number into lost, too slow to return, and captured.\n\n"
+      "A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. "
+      "The\n"
+      "time between is the time of free flight to the surface and back; both velocities and the\n"
+      "height of the plane determine it. recoil finds the height at which most passages agree, "
+      "then\n"
+      "pairs passages by flight time and diameter, each with at most one other. Rebounds that "
+      "come\n"
+      "down again are later impacts and are left out. Velocities are corrected to the surface,\n"
+      "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. recoil estimates how many of "
+      "the\n"
+      "passages without a rebound were lost, were too slow to return, and were captured.\n"
+      "\n"
       "  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv\n"
       "  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \\\n"
       "      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \\\n"

@@ -47,7 +47,7 @@ void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
     if (options.slowest < options.fastest) return;
     throw InputError(
         {}, fmt::format("--velocity {:g},{:g} is not a range", options.slowest, options.fastest),
-        "the first number has to be the smaller one", "for example --velocity 1,50");
+        "the first number must be the smaller one", "for example --velocity 1,50");
   }
   double slowest = INFINITY;
   double fastest = 0.0;
@@ -70,14 +70,14 @@ void assume(const std::string& name, double value, const FitSpec& spec, ImpactMo
     if (slot.parameter->name != name) continue;
     found = true;
     if (slot.free && !(value >= slot.lower && value <= slot.upper)) {
-      throw InputError({}, fmt::format("--{} {:g} is outside of its bounds", name, value),
+      throw InputError({}, fmt::format("--{} {:g} is outside its bounds", name, value),
                        fmt::format("the fit file allows {:g} to {:g}", slot.lower, slot.upper),
                        "assume another value, or widen the bounds");
     }
     slot.initial = value;
   }
   if (found) return;
-  throw InputError({}, fmt::format("--{} is no parameter of this fit", name),
+  throw InputError({}, fmt::format("--{} is not a parameter of this fit", name),
                    fmt::format("its law of adhesion is {}", to_string(spec.adhesion)),
                    traits(spec.adhesion).by_force ? "give --f0" : "give --W");
 }
@@ -140,14 +140,18 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
             "--" + name, [flags, name](double value) { flags->assumed[name] = value; }, help)
         .within(0.0, most, name);
   };
-  parameter("C_H", "assume this damping of the contact [s/m] (default: the fit file's start)", 1e6);
-  parameter("C_A", "assume this damping of the adhesion [s/m] (default: the fit file's start)",
+  parameter("C_H",
+            "assume this damping of the contact [s/m] (default: the initial value of the fit file)",
             1e6);
+  parameter(
+      "C_A",
+      "assume this damping of the adhesion [s/m] (default: the initial value of the fit file)",
+      1e6);
   parameter("f0",
-            "assume this adhesion per length at the reference diameter [N/m] (default: what the "
-            "fit file or the materials say)",
+            "assume this adhesion per length at the reference diameter [N/m] (default: from the "
+            "fit file or the materials)",
             1e6);
-  parameter("W", "the same for the other laws of adhesion: work of adhesion [J/m2]", 40.0);
+  parameter("W", "assume this work of adhesion [J/m2] (laws jkr, dmt and maugis)", 40.0);
   command
       .option("--parameters", flags->parameters,
               "take the values from this fit.json, of the same fit and data")
@@ -159,13 +163,13 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
       .within(0.0, 1.0, "scatter");
   command
       .option("--floor", flags->plan.floor,
-              "the part of that standard deviation that does not depend on e")
+              "part of that standard deviation that does not depend on e")
       .shows_default()
       .within(1e-6, 1.0, "standard deviation");
   command
       .option("--spread", flags->plan.spread,
-              "relative standard deviation of the capture velocity from impact to impact; 0: below "
-              "it every sphere stays, above it none")
+              "relative standard deviation of the capture velocity from impact to impact; 0: "
+              "capture is sharp")
       .shows_default()
       .within(0.0, 0.5, "spread");
 }
@@ -174,14 +178,17 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
 
 void add_plan(Program& program) {
   const Command command = program.command(
-      "plan", "before the experiment: which velocities and sizes to measure, and how often");
+      "plan", "plan an experiment: which velocities and sizes to measure, and how often");
   command.footer(
-      "Needs a fit file and datasets with their materials; points need not be there yet. From the\n"
-      "model it works out which points determine the free parameters and the capture velocities\n"
-      "with the fewest impacts, and which errors to expect. The plan is best where its "
-      "assumptions\n"
-      "hold: make it again with --parameters once there are first results. With --out it writes\n"
-      "plan.html (a page to read), plan.json and points.csv, to be filled in.\n\n"
+      "Needs a fit file and datasets with materials; the datasets need no points yet. The plan\n"
+      "determines the free parameters and the capture velocities with the fewest impacts, and "
+      "states\n"
+      "the errors to expect. It depends on the assumed parameters: repeat it with --parameters "
+      "after\n"
+      "the first results. With --out it writes plan.html (a page to read), plan.json and "
+      "points.csv\n"
+      "(to be filled in).\n"
+      "\n"
       "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
       "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
       "      --out my-plan");
@@ -197,32 +204,31 @@ void add_plan(Program& program) {
       .within(velocity_limits.first, velocity_limits.second, "velocity");
   command
       .option("--diameter", flags->diameters,
-              "sphere diameters that there are [um], e.g. 2,5,10 (default: those of the points)")
+              "available sphere diameters [um], e.g. 2,5,10 (default: those of the points)")
       .list()
       .takes("D,D,...")
       .within(diameter_limits_um.first, diameter_limits_um.second, "diameter");
   command
       .option("--error", flags->plan.error,
-              "wanted standard error of every free parameter and capture velocity, relative")
+              "wanted relative standard error of every free parameter and capture velocity")
       .shows_default()
       .within(1e-4, 1.0, "error");
   command
-      .option(
-          "--impacts", flags->plan.impacts,
-          "impacts of the whole plan (default: as many as the wanted error takes, at most 10000)")
+      .option("--impacts", flags->plan.impacts,
+              "total number of impacts (default: as many as the wanted error needs, at most 10000)")
       .within(1, 10000000);
-  command.option("--events", flags->plan.events, "impacts that one point averages")
+  command.option("--events", flags->plan.events, "number of impacts averaged in one point")
       .shows_default()
       .within(1, 100000);
   command
       .option("--checks", flags->plan.checks,
-              "share of the points that are spread evenly, to show a wrong model")
+              "share of the points that is spread evenly to detect a wrong model")
       .shows_default()
       .within(0.0, 1.0, "share");
   add_assumptions(command, flags);
   command.option("--out", flags->out, "folder for the files (default: nothing is written)")
       .takes("DIR");
-  command.flag("--replace", flags->replace, "replace a points.csv that is there already");
+  command.flag("--replace", flags->replace, "replace an existing points.csv");
   add_json_flag(command, flags->json);
   command.runs([flags] { run_plan(*flags); });
 }

@@ -63,7 +63,7 @@ void predict_sizes(const PredictOptions& options) {
   print_text("{}", printed);
   if (options.height < 0.0 && !sizes.probe_height) {
     print_text(options.json ? stderr : stdout,
-               "note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",
+               "note: without --height, the {:g} mm of Li, Dunn & Brach (1999) is used\n",
                mix.probe_height / units::mm);
   }
 }
@@ -71,31 +71,31 @@ void predict_sizes(const PredictOptions& options) {
 }  // namespace
 
 void add_predict(Program& program) {
-  const Command command = program.command(
-      "predict",
-      "what a mixture of sizes does: averages of the restitution over a size distribution");
+  const Command command =
+      program.command("predict", "predict the mean restitution of a mixture of sizes");
   command.footer(
       "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
       "and\n"
-      "count) under three conventions: captured spheres count as e = 0; they are left out; they\n"
-      "are left out together with those that return too slowly to climb back to the measuring\n"
-      "plane. With --out it writes predict.csv, predict.json and a picture.\n\n"
+      "count) under three conventions: captured spheres count as e = 0; captured spheres are left\n"
+      "out; captured spheres and those too slow to return to the measuring plane are left out. "
+      "With --out it writes predict.csv, predict.json and a picture.\n"
+      "\n"
       "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
       "datasets/li1999-sst65-silicon/sizes.csv");
   const auto options = std::make_shared<PredictOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--sizes", options->sizes, "the size distribution (CSV)").required().takes("FILE");
   command.option("--unit", options->unit,
-                 "unit of its diameters: um, mm or m (default: what the datapackage.json beside it "
-                 "says, otherwise um)");
+                 "unit of its diameters: um, mm or m (default: from the datapackage.json beside "
+                 "it, otherwise um)");
   command
       .option("--height", options->height,
-              "height of the measuring plane above the surface [mm] (default: what the "
-              "datapackage.json says, otherwise 1)")
+              "height of the measuring plane above the surface [mm] (default: from the "
+              "datapackage.json beside it, otherwise 1)")
       .within(0.0, 1000.0);
-  command.flag(
-      "--midpoints", options->midpoints,
-      "put all spheres of a bin at its middle, as the paper did (default: spread over the bin)");
+  command.flag("--midpoints", options->midpoints,
+               "place all spheres of a bin at its midpoint, as in the paper (default: spread them "
+               "over the bin)");
   command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       .takes("ID");
   command.option("--out", options->out, "folder for the files (default: none are written)")

@@ -41,8 +41,8 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
   }
   if (files.empty()) {
     throw InputError({"fits"}, "there are no fit files here",
-                     "without FIT, recoil report takes every fits/*.toml",
-                     "name the fits, or run this in the project's folder");
+                     "without FIT, recoil report uses every fits/*.toml",
+                     "name the fit files, or run this in the project's folder");
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -61,9 +61,10 @@ void require_pages_of_their_own(const std::vector<fs::path>& fits) {
     for (const std::string& name : {id + ".html", id}) {
       const auto [owner, is_free] = owners.emplace(name, fit);
       if (is_free) continue;
-      throw InputError({fit.string()},
-                       fmt::format("its page {} would be that of {}", name, owner->second.string()),
-                       "pages are named after the fit files", "rename one of them");
+      throw InputError(
+          {fit.string()},
+          fmt::format("its page {} would also be that of {}", name, owner->second.string()),
+          "pages are named after the fit files", "rename one of them");
     }
   }
 }
@@ -145,7 +146,7 @@ IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
 
 IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::string& expected,
                      const PageFiles& files, IndexEntry entry) {
-  // A page goes on where an earlier run with the same inputs was stopped.
+  // A page continues an earlier, stopped run with the same inputs.
   const auto kept_for = [&](const fs::path& result) {
     return std::make_shared<KeptRows>(unfinished_beside(result),
                                       expected + arithmetic_fingerprint());
@@ -213,12 +214,12 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(Program& program) {
-  const Command command =
-      program.command("report", "fit, and write a page for every fit and an index");
+  const Command command = program.command("report", "write a page for every fit, and an index");
   command.footer(
-      "Writes one page per fit, which needs no other file, and index.html. Pages whose inputs "
+      "Writes one page per fit and index.html. A page needs no other file. Pages whose inputs "
       "have\n"
-      "not changed are kept.\n\n"
+      "not changed are kept.\n"
+      "\n"
       "  recoil report                      every fits/*.toml into reports/\n"
       "  recoil report my.toml --out pages  one fit");
   const auto options = std::make_shared<ReportOptions>();

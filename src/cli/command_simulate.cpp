@@ -263,9 +263,10 @@ void simulate(const SimulateOptions& options) {
 
 void add_simulate(Program& program) {
   const Command command =
-      program.command("simulate", "one impact, with its energy budget and force history");
+      program.command("simulate", "simulate one impact, with its energy budget and force history");
   command.footer(
-      "Uses the initial values of the fit file, or those of a fit.json with --parameters.\n\n"
+      "Uses the initial values of the fit file, or with --parameters the values of a fit.json.\n"
+      "\n"
       "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history "
       "forces.csv");
   const auto options = std::make_shared<SimulateOptions>();

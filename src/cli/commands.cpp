@@ -66,34 +66,34 @@ void add_threads(const Command& command, int& threads) {
 }
 
 void add_seed(const Command& command, std::int64_t& seed, const std::string& of) {
-  command.option("--seed", seed, fmt::format("seed of {} (default: the fit file's)", of))
+  command.option("--seed", seed, fmt::format("seed of {} (default: from the fit file)", of))
       .within(0, 0x1p63);
 }
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags) {
   command
       .option("--replicates", flags.replicates,
-              "bootstrap replicates; 0: none, auto: as many as it takes (default: the fit file's)")
+              "number of bootstrap replicates; 0: none; auto: until the intervals are precise "
+              "enough (default: from the fit file)")
       .auto_or(0, 1000000);
   command
       .option("--scheme", flags.scheme,
-              "how the bootstrap draws new data sets (default: the fit file's)")
+              "resampling scheme of the bootstrap (default: from the fit file)")
       .one_of(all_names<Scheme>());
-  add_seed(command, flags.seed, "the random numbers; fixes every digit");
+  add_seed(command, flags.seed, "the random numbers, which fixes every digit of the output");
   add_threads(command, flags.threads);
   command
       .option("--solver", flags.solver,
-              "how impacts are integrated; reference: CVODES (default: fast)")
+              "how impacts are integrated: fast, or with CVODES as a reference (default: fast)")
       .one_of(all_names<Solver>());
 }
 
 void add_json_flag(const Command& command, bool& json) {
-  command.flag("--json", json,
-               "print the result as JSON instead; what else there is to say goes to stderr");
+  command.flag("--json", json, "print the result as JSON; notes and warnings go to stderr");
 }
 
 void add_verbose_flag(const Command& command, bool& verbose) {
-  command.flag("--verbose", verbose, "print all details, not the answer alone");
+  command.flag("--verbose", verbose, "print all details");
 }
 
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
@@ -118,8 +118,8 @@ void add_shard_flags(const Command& command, const std::string& pieces, ShardFla
   flags.pieces = pieces;
   command
       .option("--shard", flags.shard,
-              fmt::format("run only the K-th of N shares of the {}, from 1/N to N/N, and write it "
-                          "as a part into DIR, for recoil merge DIR",
+              fmt::format("compute only shard K of N (1/N to N/N) of the {} and write it to DIR; "
+                          "recoil merge DIR combines the shards",
                           pieces))
       .takes("K/N")
       .check([](const std::string& text) -> std::string {
@@ -135,8 +135,8 @@ void ShardFlags::require_share(const std::string& out, std::size_t count) const 
                      "give all shards the same folder");
   }
   if (count == 0) {
-    throw InputError({}, fmt::format("there are no {} to share", pieces), "",
-                     "leave --shard out, or ask for some");
+    throw InputError({}, fmt::format("there are no {} to divide", pieces), "",
+                     "leave --shard out, or request some");
   }
   require_writable_folder(out);
 }
@@ -157,7 +157,7 @@ std::shared_ptr<KeptRows> ShardFlags::rows(const Origin& origin, const fs::path&
   }
   const Shard own = shard_named(shard).value();
   if (!has_part(result, origin, own)) return rows_of_shard(result, origin, own);
-  print_text("{}: there already\n", part_path(result, origin, own).string());
+  print_text("{}: exists already\n", part_path(result, origin, own).string());
   return nullptr;
 }
 

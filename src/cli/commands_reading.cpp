@@ -17,12 +17,13 @@ namespace recoil {
 
 void add_check(Program& program) {
   const Command command =
-      program.command("check", "validate a dataset folder and show what it holds");
+      program.command("check", "validate a dataset folder and show its contents");
   command.footer(
-      "Reads datapackage.json and the points that it names, converts the units and prints what "
-      "was\n"
-      "understood. A mistake is answered with one line:\n"
-      "  file:line:column: problem (why it is one); suggestion\n\n"
+      "Reads datapackage.json and the points that it names, converts the units and prints the "
+      "result.\n"
+      "If a file contains an error, recoil prints one line:\n"
+      "  file:line:column: problem (why it is one); suggestion\n"
+      "\n"
       "  recoil check datasets/dahneke1975-quartz");
   const auto folder = std::make_shared<std::string>();
   command.option("DIR", *folder, "the dataset's folder").required();
@@ -30,11 +31,14 @@ void add_check(Program& program) {
 }
 
 void add_compare(Program& program) {
-  const Command command =
-      program.command("compare", "fits of the same data side by side, such as laws of adhesion");
+  const Command command = program.command(
+      "compare", "compare fits of the same data, for example with different laws of adhesion");
   command.footer(
-      "Reads what `recoil fit FIT --out DIR` has written. AICc is given where the data state\n"
-      "standard deviations; held out is the error at diameters that the fit has not seen.\n\n"
+      "Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with "
+      "stated\n"
+      "standard deviations. The column \"held out\" is the error at diameters left out of the "
+      "fit.\n"
+      "\n"
       "  recoil compare ring/fit.json jkr/fit.json dmt/fit.json");
   const auto files = std::make_shared<std::vector<std::string>>();
   command.option("FIT.json", *files, "two or more fit.json of the same datasets")
@@ -54,7 +58,8 @@ void add_materials(Program& program) {
       program.command("materials", "list the materials that --particle and --surface know by name");
   command.footer(
       "import and init take --particle NAME and --surface NAME; NAME,key=value changes a\n"
-      "constant. The errors go with them into the dataset.\n\n"
+      "constant. The constants enter the dataset with their errors.\n"
+      "\n"
       "  recoil import drops.csv --format heights --into ball --particle steel --surface glass "
       "...\n"
       "  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70");
@@ -67,9 +72,9 @@ void add_materials(Program& program) {
                  one.poisson_ratio, one.poisson_ratio_sd, one.what);
     }
     print_text(
-        "Source: {}.\nErrors are one standard deviation: a range of Young's modulus counts as "
-        "uniform. Where it gives one value, 2 % of E, 1 % of the density and 0.01 of nu are "
-        "assumed.\n",
+        "Source: {}.\n"
+        "Errors are one standard deviation: a range of Young's modulus is taken as uniform. For a "
+        "single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
         tabled_materials_source);
   });
 }

@@ -57,10 +57,13 @@ void open_standard_streams() {
 
 int run(const std::vector<std::string>& words) {
   Program program(
-      "recoil: how well does a model of microsphere impact fit measured restitution, and how sure\n"
-      "are its parameters? Start with: recoil check DIR, then recoil fit FIT.",
-      "Exit status: 0 done, 2 the input or the command line is wrong, 3 no usable answer.\n"
-      "recoil COMMAND --help shows an example of each, recoil help lists the pages of the manual.",
+      "recoil fits a model of microsphere impact to measured restitution. It states how uncertain "
+      "the\n"
+      "parameters are and what the model gets wrong. Start with: recoil init DIR, then recoil fit "
+      "FIT.",
+      "Exit status: 0 success, 2 error in the input or on the command line, 3 no usable result.\n"
+      "recoil COMMAND --help shows options and examples; recoil help lists the pages of the "
+      "manual.",
       version());
   add_commands(program);
   try {
@@ -91,10 +94,10 @@ int run(const std::vector<std::string>& words) {
     print_text(stderr, "{}\n", told.what());
     return wrong_input;
   } catch (const std::bad_alloc&) {
-    print_text(stderr, "recoil: there is not enough memory for this\n");
+    print_text(stderr, "recoil: not enough memory\n");
     return no_answer;
   } catch (const std::system_error& error) {  // no more threads, for example
-    print_text(stderr, "recoil: the system refused: {}\n", error.what());
+    print_text(stderr, "recoil: system error: {}\n", error.what());
     return no_answer;
   } catch (const std::exception& error) {
     print_text(stderr, "recoil: {} (this is a defect of recoil); please report it\n", error.what());

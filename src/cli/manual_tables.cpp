@@ -118,7 +118,7 @@ std::string mechanism_details_table(Where where) {
     if (where_of(info) != where) continue;
     out += fmt::format("{}## {}\n\n{} ({}).\n\n", out.empty() ? "" : "\n", info.id, info.title,
                        to_string(info.kind));
-    out += fmt::format("- Law: {}\n- Leaves: {}\n- Source: {}\n", info.formula, info.fingerprint,
+    out += fmt::format("- Law: {}\n- Effect: {}\n- Source: {}\n", info.formula, info.fingerprint,
                        info.source);
     if (!info.cause.empty()) out += fmt::format("- A law of: {}.\n", info.cause);
     out +=

@@ -176,7 +176,7 @@ std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_by
     if (!waits) break;
     end_if_called_off();
     if (Clock::now() - last > patience) {
-      fail(fmt::format("nothing has come out of this for {:.3g} s",
+      fail(fmt::format("no data have arrived for {:.3g} s",
                        std::chrono::duration<double>(patience).count()),
            "it is a pipe or a device", "name a file");
     }
@@ -289,15 +289,15 @@ void require_free(const std::vector<std::filesystem::path>& outputs, Replacing r
     }
     const bool exists = found && S_ISREG(file.st_mode);
     if (!places.insert(place).second || (exists && !files.insert(identity_of(file)).second)) {
-      refuse("two results would have this one name", "give one of them another name");
+      refuse("two results would have this name", "give one of them another name");
     }
     if (!exists || replacing == Replacing::data || !read_files().are_protected) continue;
     if (was_read(file)) {
-      refuse("this file is read, and would be overwritten", "choose another place for the result");
+      refuse("this input file would be overwritten", "choose another place for the result");
     }
     const std::string name = output.filename().string();
     if (name == "points.csv" || name == "datapackage.json") {
-      refuse("there is data here already, which would be overwritten",
+      refuse("existing data would be overwritten",
              "choose another place for the result; import, pair and plan have --replace");
     }
   }

@@ -64,8 +64,8 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
     if (error == ELOOP || (error == 0 && !is_mark(file_))) {
       if (file_ >= 0) close(file_);
       let_go();
-      throw InputError({mark_.string()}, "this is no lock of recoil",
-                       "it is a link, or something else is in it", "remove it");
+      throw InputError({mark_.string()}, "this is not a lock file of recoil",
+                       "it is a link, or its contents are different", "remove it");
     }
     if (error != 0) {
       let_go();
@@ -76,7 +76,7 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
       const std::string owner = owner_in(file_);
       close(file_);
       let_go();
-      throw InputError({result.string()}, "another recoil is at work on this result", owner,
+      throw InputError({result.string()}, "another recoil process is writing this result", owner,
                        "wait until it has ended, or choose another place");
     }
     if (is_still_there(file_, mark_)) break;

@@ -191,7 +191,7 @@ constexpr Difference differences[] = {
     {"pieces", "they are parts of different numbers of pieces"},
     {"inputs", "the fit file or the data have changed between them"},
     {"arithmetic", "their processors give different digits"},
-    {"start", "they begin with different digits of the fit"}};
+    {"start", "their fits differ in digits"}};
 
 std::optional<std::size_t> count_named(std::string_view text) {
   std::size_t value = 0;
@@ -394,14 +394,14 @@ std::shared_ptr<KeptRows> rows_of_parts(const fs::path& folder, const Origin& or
   for (const Part& part : parts) {
     if (part.origin.arithmetic != origin.arithmetic) continue;
     if (const std::string why = difference(origin, part.origin); !why.empty()) {
-      throw InputError({part.file.string()}, "this part is not of what would be computed here now",
-                       why, "run the shards again, into another folder");
+      throw InputError({part.file.string()}, "this part belongs to another computation", why,
+                       "run the shards again, into another folder");
     }
     std::optional<Rows> rows = read_rows(part.file);
     if (!rows) {
       throw InputError(
-          {part.file.string()}, "its rows are not those that were written",
-          "they give another SHA-256 than its first line names",
+          {part.file.string()}, "its rows have been changed",
+          "their SHA-256 differs from that in the first line",
           fmt::format("remove it, and run shard {}/{} again", part.shard.number, part.shard.of));
     }
     kept->add(std::move(*rows));

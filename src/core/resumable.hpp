@@ -172,9 +172,8 @@ auto resumable(KeptRows& kept, const Work& work) {
   const auto end_if_stopped = [&kept] {
     if (!stop_requested()) return;
     kept.keep();
-    throw Interrupted(
-        fmt::format("stopped: {} pieces are kept in {}; the same command goes on from there",
-                    kept.size(), kept.file().string()));
+    throw Interrupted(fmt::format("stopped: {} pieces are kept in {}; the same command continues",
+                                  kept.size(), kept.file().string()));
   };
   try {
     auto result = work();

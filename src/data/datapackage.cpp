@@ -35,7 +35,7 @@ void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
     if (std::ranges::find(known, key) != known.end()) continue;
     if (std::ranges::find(changing, key) == changing.end()) continue;
     member.fail(fmt::format("{} is not supported", quote(key)),
-                "the cells would be read differently from what it says",
+                "recoil would read the cells differently",
                 fmt::format("remove it; supported: {}", join(known)));
   }
 }
@@ -45,7 +45,7 @@ void require_usual(const JsonNode& parent, const char* key, const nlohmann::json
   const auto node = parent.find(key);
   if (!node || node->scalar() == usual) return;
   node->fail(fmt::format("{} is not supported with this value", quote(key)),
-             "the cells would be read differently from what it says",
+             "recoil would read the cells differently",
              fmt::format("remove it, or write {}", usual.dump()));
 }
 
@@ -86,7 +86,7 @@ void read_constraints(const JsonNode& field, Column& column) {
 void read_type(const JsonNode& field, Column& column) {
   const Quantity quantity = column.quantity;
   const bool text = dimension_of(quantity) == Dimension::text;
-  const JsonNode type = field.require("type", "it says how the cells are read",
+  const JsonNode type = field.require("type", "it states how to read the cells",
                                       text ? "write \"string\"" : "write \"number\"");
   const std::string word = type.string();
   std::vector<std::string> allowed = {"number", "integer"};
@@ -258,9 +258,9 @@ void read_resource(const JsonNode& root, Package& package) {
   package.points_path = read_path(path);
   package.points_where = path.where();
   read_dialect(resource, package);
-  const JsonNode schema = resource.require("schema", "it says what the columns are and their units",
+  const JsonNode schema = resource.require("schema", "it states the columns and their units",
                                            "list the fields with name, type and unit");
-  package.columns = read_fields(schema.require("fields", "it says what the columns are",
+  package.columns = read_fields(schema.require("fields", "it states the columns",
                                                "list the fields with name, type and unit"));
   if (const auto missing = schema.find("missingValues")) {
     for (Column& column : package.columns) {

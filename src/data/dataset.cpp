@@ -483,8 +483,8 @@ std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& data
     if (dataset.provenance != Provenance::reconstruction) continue;
     remarks.push_back(dataset.id +
                       " is a reconstruction: a committed recipe (recipe.toml) made its points. "
-                      "Whatever a diagnosis finds in them, the recipe put there: it shows that the "
-                      "method works, and says nothing about the experiment.");
+                      "A diagnosis finds what the recipe put into them. It tests the method and "
+                      "shows nothing about the experiment.");
   }
   return remarks;
 }

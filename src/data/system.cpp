@@ -26,7 +26,7 @@ double stated_sd(const JsonNode& node, double value) {
   const auto relative = node.find("relative_sd");
   if (sd && relative) {
     relative->fail(fmt::format("{} has both sd and relative_sd", node.name()),
-                   "either of them is enough", "remove one of them");
+                   "one of them is enough", "remove one of them");
   }
   if (!sd && !relative) {
     node.fail(fmt::format("{} is an object without sd or relative_sd", node.name()),
@@ -55,8 +55,7 @@ double uncertain_constant(const JsonNode& node, Body body, Constant which, Impac
                           const Read& read) {
   if (!node.is_object()) return read(node);
   node.allow_only({"value", "sd", "relative_sd"});
-  const double value =
-      read(node.require("value", "an error without a value means nothing", "add the value"));
+  const double value = read(node.require("value", "an error needs its value", "add the value"));
   const double sd = stated_sd(node, value);
   if (sd > 0.0) system.errors.push_back({body, which, sd});
   return value;
@@ -70,9 +69,9 @@ double poisson_ratio(const JsonNode& node) {
 }
 
 Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) {
-  const JsonNode node =
-      recoil.require(to_string(body), "both bodies decide how stiff and sticky the contact is",
-                     "state its material, youngs_modulus and poisson_ratio");
+  const JsonNode node = recoil.require(
+      to_string(body), "the stiffness and adhesion of the contact depend on both bodies",
+      "state its material, youngs_modulus and poisson_ratio");
   std::vector<std::string> keys = {"material",       "density",  "youngs_modulus", "poisson_ratio",
                                    "surface_energy", "hardness", "yield_strength"};
   if (body == Body::surface) keys.insert(keys.end(), {"relative_permittivity", "diameter"});
@@ -254,7 +253,7 @@ ImpactSystem read_system(const JsonNode& recoil) {
     system.conditions = read_conditions(*conditions);
   }
   if (const auto method = recoil.find("method")) {
-    system.method = known_word<Method>(*method, "method", "it says how velocities were measured");
+    system.method = known_word<Method>(*method, "method", "it states how velocities were measured");
   }
   return system;
 }

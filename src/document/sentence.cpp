@@ -166,6 +166,14 @@ Sentence join(const std::vector<Sentence>& parts, const Sentence& between) {
 
 std::string words_of(std::string identifier) {
   std::replace(identifier.begin(), identifier.end(), '_', ' ');
+  for (const std::string_view name : {"JKR", "DMT", "van der Waals", "Maugis"}) {
+    const auto same = [](unsigned char a, unsigned char b) {
+      return std::tolower(a) == std::tolower(b);
+    };
+    const auto at =
+        std::search(identifier.begin(), identifier.end(), name.begin(), name.end(), same);
+    if (at != identifier.end()) std::copy(name.begin(), name.end(), at);
+  }
   return identifier;
 }
 

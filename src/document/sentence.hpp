@@ -103,7 +103,7 @@ Sentence as_sentence(Sentence words);
 
 Sentence join(const std::vector<Sentence>& parts, const Sentence& between);
 
-/// An identifier such as "no_adhesion_damping" in words.
+/// An identifier such as "jkr_hysteresis" in words: "JKR hysteresis".
 std::string words_of(std::string identifier);
 
 }  // namespace recoil

@@ -121,7 +121,7 @@ class BoxDescent {
     }
     result_.end = DescentEnd::minimum;
     if (free_.empty()) {
-      result_.message = "nothing is free";
+      result_.message = "no parameter is free";
       return std::move(result_);
     }
     double radius = options.first_radius;
@@ -132,7 +132,7 @@ class BoxDescent {
     linearise();
     for (result_.iterations = 0; result_.iterations < options.max_iterations;
          ++result_.iterations) {
-      if (largest_slope() <= options.gradient_tolerance) return ended("the slope vanishes");
+      if (largest_slope() <= options.gradient_tolerance) return ended("the gradient vanishes");
       const Eigen::VectorXd d = step(radius);
       if (d.norm() <= options.parameter_tolerance * (where_.norm() + options.parameter_tolerance)) {
         return ended("the steps vanish");
@@ -158,7 +158,7 @@ class BoxDescent {
         trial.iterations = result_.iterations;
         trial.end = DescentEnd::minimum;
         result_ = std::move(trial);
-        if (no_more) return ended("the sum of squares does not fall any more");
+        if (no_more) return ended("the sum of squares no longer decreases");
         radius = std::min(largest_radius,
                           radius / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
         shrink = 2.0;
@@ -166,13 +166,13 @@ class BoxDescent {
         linearise();
         continue;
       }
-      if (no_more) return ended("the sum of squares does not fall any more");
+      if (no_more) return ended("the sum of squares no longer decreases");
       radius /= shrink;
       shrink *= 2.0;
-      if (radius < least_radius) return ended("no step leads down");
+      if (radius < least_radius) return ended("no step reduces the sum of squares");
     }
     result_.end = DescentEnd::limit;
-    return ended("the iterations ran out");
+    return ended("the iteration limit was reached");
   }
 
  private:

@@ -285,7 +285,8 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
       best_start = lead.start;
     }
     if (!best.ended()) {
-      result.failure = "no fit to all points from where the starts ended on a part of them";
+      result.failure =
+          "no fit to all points converged from the results of the starts on some of them";
       return result;
     }
   }
@@ -296,7 +297,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   if (result.noise_verdict == NoiseVerdict::exceeded && model.adjusts_constants() &&
       !keep_errors_of_constants(result, best, options.minimiser)) {
     result.usable = false;
-    result.failure = "no fit with the points' errors widened: " + best.message;
+    result.failure = "the fit with widened errors of the points did not converge: " + best.message;
     return result;
   }
   result.strained_points = count_strained(result.data.points);

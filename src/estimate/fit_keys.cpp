@@ -16,7 +16,7 @@ std::vector<FitKey> all_keys() {
   const NoiseSpec noise;
   const UncertaintySpec uncertainty;
   return {
-      {"", "dataset", "", "the folder with the points, or a list: they are fitted together"},
+      {"", "dataset", "", "dataset folder, or a list of folders that are fitted together"},
       {"", "model", "", "the table [model]"},
       {"", "parameters", "", "the table [parameters]"},
       {"", "noise", "", "the table [noise]"},
@@ -24,27 +24,23 @@ std::vector<FitKey> all_keys() {
       {"", "diagnosis", "", "the table [diagnosis]"},
 
       {"model", "adhesion", quoted(name_of(fit.adhesion)),
-       "the law of adhesion: ring (eq. 5, with f0), jkr, dmt, or maugis between these two (all "
-       "three with W)"},
+       "law of adhesion: ring (eq. 5, with f0), jkr, dmt or maugis (between jkr and dmt); the last "
+       "three have W instead of f0"},
       {"model", "separation", fmt::format("{:g}", fit.separation),
-       "z0 [m], the distance of the surfaces at rest, which sets the range of adhesion under "
+       "z0 [m], distance of the surfaces in equilibrium, which sets the range of adhesion under "
        "maugis"},
       {"model", "adhesion_damping_phase", quoted(name_of(fit.phase)),
-       "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
-       "both "
-       "phases"},
+       "when adhesion damping acts: during rebound, or in both phases"},
       {"model", "loss", "",
-       "the loss of the dry contact: hunt_crossley (C_H), viscoelastic (bulk_relaxation), constant "
-       "(hysteretic_share), yield (yield_pressure), the last three in place of C_H, or auto: all "
-       "are fitted and the points choose; by default auto where there is no adhesion, else "
-       "hunt_crossley"},
+       "loss law of the dry contact: hunt_crossley (C_H), viscoelastic (bulk_relaxation), constant "
+       "(hysteretic_share) or yield (yield_pressure); the last three replace C_H. auto fits all of "
+       "them and chooses by AICc. Default: auto without adhesion, else hunt_crossley"},
       {"model", "mechanisms", "[]", "ids of the mechanisms that are added to the base model"},
       {"model", "mixed_sizes", truth_value(fit.mixed_sizes),
-       "where a dataset says that its points average over a distribution of sizes, average over "
-       "it; "
-       "false takes every sphere of a point at the point's diameter"},
+       "true: average over the size distribution that a dataset states; false: every sphere has "
+       "the diameter of its point"},
 
-      {"parameter", "initial", "", "where the fit starts; the value of a fixed parameter"},
+      {"parameter", "initial", "", "initial value, or the value of a fixed parameter"},
       {"parameter", "bounds", "", "[lower, upper]"},
       {"parameter", "free", "", "whether it is fitted"},
       {"parameter", "per", "",
@@ -56,8 +52,9 @@ std::vector<FitKey> all_keys() {
       {"noise", "student_dof", fmt::format("{:g}", noise.student_dof),
        "degrees of freedom of Student's t"},
       {"noise", "setting_sd", "",
-       "error of e that the points of one setting share [1]; 0: none, \"estimated\": also where no "
-       "column names the settings; by default estimated where one does"},
+       "standard deviation of an error of e that the points of one setting share [1]; 0: none; "
+       "\"estimated\": from the points, even if no column names the settings. Default: estimated "
+       "if a column does"},
       {"noise", "velocity_errors", truth_value(noise.velocity_errors),
        "use the column velocity_sd"},
       {"noise", "velocity_relative_sd", fmt::format("{:g}", noise.velocity_relative_sd),
@@ -68,26 +65,26 @@ std::vector<FitKey> all_keys() {
        "relative standard deviation for points that state no diameter_sd"},
 
       {"uncertainty", "replicates", fmt::format("{}", uncertainty.replicates),
-       "replicates of the bootstrap; 0: none, \"auto\": as many as it takes"},
+       "number of bootstrap replicates; 0: none; \"auto\": until the intervals are precise enough"},
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
-       "how the bootstrap draws new data sets"},
+       "resampling scheme of the bootstrap"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
       {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
-       "the errors that the datasets state for their material constants widen every interval; "
-       "\"adjust\" lets the points move the constants within their errors, false takes them as "
+       "true: the stated errors of material constants widen every interval; \"adjust\": the "
+       "constants are fitted too, with their stated errors as priors; false: the constants are "
        "exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
-       "sample the posterior: one more kind of interval, and joint draws in posterior.csv"},
+       "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},
       {"uncertainty", "own_design", "",
-       "simulate the fitted truth anew and count how often the quoted intervals contain it "
-       "(`own_design.coverage`): true (200 data sets), false, or how many; by default 200 where "
-       "that takes less than about 10 s of one core"},
+       "measure the coverage of the quoted intervals with simulated data sets of this design "
+       "(`own_design.coverage`): true (200 data sets), false, or a number. Default: 200 if that "
+       "takes less than about 10 s on one core"},
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
        "seed of the random numbers; fixes every digit of every output"},
 
       {"diagnosis", "law_error", fmt::format("{:g}", fit.law_error),
-       "relative error, smooth in V and d, that a diagnosis allows the law of a mechanism; the "
-       "losses of the base model are allowed three tenths of it; 0 takes the laws as exact"},
+       "relative error, smooth in V and d, that a diagnosis allows in the law of a mechanism; "
+       "three tenths of it in the losses of the base model; 0: the laws are exact"},
   };
 }
 

@@ -89,7 +89,7 @@ void read_setting_sd(const TomlReader& reader, const toml::table& table, NoiseSp
   }
   if (spec.student && (spec.every_setting || *spec.setting_sd > 0.0)) {
     reader.fail(*node, "setting_sd beside residuals = \"student\"",
-                "what points share and what single ones do are told apart by normal errors only",
+                "shared and single errors can be separated only if both are normal",
                 "remove one of the two");
   }
 }
@@ -479,7 +479,7 @@ class FitReader : private TomlReader {
       const bool adjusts = node->is_string() && node->as_string()->get() == "adjust";
       if (node->is_string() && !adjusts) {
         fail(*node, fmt::format("materials = {}", quote(node->as_string()->get())),
-             "it is no way to use the stated errors of constants",
+             "it must be true, false or \"adjust\"",
              "true widens the intervals by them, \"adjust\" lets the points move the constants");
       }
       spec.materials = adjusts                       ? Materials::adjusted
@@ -503,7 +503,7 @@ class FitReader : private TomlReader {
       if (error < 0.0 || error > 0.5) {
         fail(*node, fmt::format("law_error = {:g}", error), "it has to lie between 0 and 0.5",
              error > 0.5 ? fmt::format("{:g} % is written {:g}", error, error / 100.0)
-                         : std::string("0 takes laws as exact"));
+                         : std::string("0 means exact laws"));
       }
       fit_.spec.law_error = error;
     }

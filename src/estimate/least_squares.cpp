@@ -247,7 +247,7 @@ LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const dou
   std::vector<double> z = coordinates.start();
   if (z.empty()) {
     result.end = DescentEnd::minimum;
-    result.message = "nothing is free";
+    result.message = "no parameter is free";
   } else {
     descend(problem, coordinates, options, z, result, known);
   }
@@ -299,7 +299,7 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
     if (!changed) break;
     if (round == 2 * p) {
       result.end = DescentEnd::limit;
-      result.message = "parameters went to their bounds and came back in turns without end";
+      result.message = "parameters moved to their bounds and back without converging";
       break;
     }
     LeastSquaresResult again =

@@ -128,8 +128,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       result.run.end = DescentEnd::no_answer;
       result.run.converged = false;
       result.run.message =
-          "the weights need an answer of the model close to every point, and it has none beside "
-          "one of them";
+          "the weights need simulated impacts near every point, and one of these has no solution";
       return result;
     }
     result.run = minimise(impact_problem(model, result.data, nullptr, points), theta, minimiser);

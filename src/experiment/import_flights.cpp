@@ -44,7 +44,7 @@ class Flights {
       table.fail(row, quantity,
                  fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
                              sphere_.air.pressure),
-                 "a sphere of this size and density could not have flown so far",
+                 "a sphere of this size and density could not have risen so high",
                  "check the units in --map, --diameter and the density, or write "
                  "--ambient-pressure 0 for vacuum");
     }

@@ -174,7 +174,7 @@ Json sources_of(const ImportRequest& request, const std::optional<ExistingPackag
       sources.push_back(source);
     }
   }
-  sources.push_back({{"title", fmt::format("{}, imported; who made it is not stated",
+  sources.push_back({{"title", fmt::format("{}, imported; its author is not stated",
                                            request.file.filename().string())}});
   return sources;
 }

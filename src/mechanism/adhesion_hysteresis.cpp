@@ -18,22 +18,23 @@ struct AdhesionHysteresis {
 Mechanism adhesion_hysteresis() {
   return make_mechanism<AdhesionHysteresis>({
       .id = "adhesion_hysteresis",
-      .title = "separation takes more work per area than contact gave",
+      .title = "separation takes more work per area than contact gains",
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "loss pi a_max^2 dW, dW = s W_A with W_A of the two bodies, a_max of the damped "
-                 "impact, and less damping of the slower sphere (other laws than the ring's: a_max "
-                 "of the undamped impact)",
+      .formula =
+          "energy loss pi a_max^2 dW, dW = s W_A, with the work of adhesion W_A of the two bodies "
+          "and the largest contact radius a_max of the damped impact; the slower sphere is damped "
+          "less. Laws of adhesion other than ring use a_max of the undamped impact",
       .source =
           "Chaudhury, M. K. & Whitesides, G. M. (1991), Langmuir 7, 1013-1025 (adhesion hysteresis "
-          "of contacts); that dW of unlike targets has the ratio of their W_A is an assumption",
-      .fingerprint = "1 - e^2 falls like V^(-6/5) d^(-1), slower than for a constant energy; V* ~ "
-                     "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9); grows with W_A from "
-                     "target to target",
+          "of contacts); that dW is proportional to W_A from target to target is an assumption",
+      .fingerprint = "1 - e^2 ~ V^(-6/5) d^(-1), a slower fall than with a constant energy loss; "
+                     "V* ~ d^(-5/6), which a free size law fits as f0 ~ r^(5/9); the loss grows "
+                     "with W_A from target to target",
       .parameters = {{.name = "hysteresis_factor",
                       .unit = "1",
-                      .meaning = "s, work of separation less work gained on contact, over W_A",
+                      .meaning = "s, (work of separation - work gained on contact) / W_A",
                       .null_value = 0.0,
                       .initial = 0.15,
                       .lower = 0.0,

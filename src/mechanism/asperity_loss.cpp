@@ -18,7 +18,7 @@ Mechanism asperity_loss() {
   return make_mechanism<AsperityLoss>({
       .id = "asperity_loss",
       .title = "crushing of asperities",
-      .formula = "a constant energy per impact, whatever the size of the sphere",
+      .formula = "a constant energy loss per impact, the same for all sizes",
       .source = "Tsai, C.-J., Pui, D. Y. H. & Liu, B. Y. H. (1990), Aerosol Sci. Technol. 12, "
                 "497-507, for the deformation of asperities in adhesive impacts",
       .fingerprint = "1 - e^2 ~ V^(-2) d^(-3), V* ~ d^(-3/2)",
@@ -29,7 +29,7 @@ Mechanism asperity_loss() {
             .initial = 1e-14,
             .upper = 1e-3,
             .plausible = {0.0, 1e-11,
-                          "a contact of 0.1 um that flows by 10 nm under 1 GPa takes 3e-13 J"},
+                          "a contact of radius 0.1 um that yields by 10 nm at 1 GPa takes 3e-13 J"},
             .starts = {1e-15, 1e-13, 1e-12},
             .stated_by = {StatedBy{Condition::surface_rms_roughness,
                                    [](double roughness, const Surroundings&,

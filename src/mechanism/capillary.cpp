@@ -33,23 +33,21 @@ struct Capillary {
 Mechanism capillary() {
   return make_mechanism<Capillary>({
       .id = "capillary",
-      .title = "a water bridge that breaks on the way out",
-      .formula =
-          "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
-          "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius; "
-          "none below 100 Pa",
-      .source =
-          "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
-          "at small contact angle). The Kelvin radius is that of a bridge in equilibrium with its "
-          "vapour. An impact of nanoseconds gives it no time to grow or shrink: a bridge that "
-          "keeps its volume takes 8 pi r gamma r_K, twice as much. Where a film is known to be "
-          "thicker or thinner, state bridge_length in the fit file",
+      .title = "a water bridge that breaks during rebound",
+      .formula = "energy loss 4 pi r gamma l: the force of the bridge times its length l at "
+                 "rupture, gamma = 0.0728 N/m. If the humidity is stated, l is the Kelvin radius. "
+                 "Below 100 Pa there is no bridge",
+      .source = "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
+                "at small contact angle). The Kelvin radius holds for a bridge in equilibrium with "
+                "its vapour. During an impact of nanoseconds the bridge cannot grow or shrink; at "
+                "constant volume it takes 8 pi r gamma r_K, twice as much. If the film is known to "
+                "be thicker or thinner, state bridge_length in the fit file",
       .fingerprint =
-          "1 - e^2 ~ V^(-2) d^(-2), V* ~ d^(-1); depends on the humidity, gone in vacuum",
+          "1 - e^2 ~ V^(-2) d^(-2), V* ~ d^(-1); depends on the humidity and vanishes in vacuum",
       .parameters =
           {{.name = "bridge_length",
             .unit = "m",
-            .meaning = "l, at which the bridge breaks",
+            .meaning = "l, length of the bridge at rupture",
             .initial = 1e-9,
             .upper = 1e-5,
             .plausible =

@@ -127,18 +127,18 @@ Mechanism crack_rate() {
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "w = w_0 + w_1 (v_c / (1 m/s))^k on opening, w_1 = s W_A with W_A of the two "
-                 "bodies; loss "
-                 "= integral of w_1 v_c^k d(pi a^2) on the way out, v_c = (R / n)^(1/2) |n'| / 2 "
-                 "at the speed that all losses leave",
+      .formula =
+          "work of separation w = w_0 + w_1 (v_c / (1 m/s))^k, w_1 = s W_A, with the work of "
+          "adhesion W_A of the two bodies; energy loss = integral of w_1 v_c^k d(pi a^2) during "
+          "rebound; crack speed v_c = (R / n)^(1/2) |n'| / 2, where n' includes all losses",
       .source = "Gent, A. N. & Schultz, J. (1972), J. Adhesion 3, 281-294; Maugis, D. & Barquins, "
-                "M. (1978), J. Phys. D 11, 1989-2023. The contact is taken to open as that of the "
-                "base model does; under JKR, up to the greatest pull",
+                "M. (1978), J. Phys. D 11, 1989-2023. The contact is assumed to open as in the "
+                "base model; under JKR, up to the largest pull",
       .fingerprint = "1 - e^2 ~ V^((3k-6)/5) d^(-1), V* ~ d^(-5/(6-3k)): between area hysteresis "
-                     "(k = 0) and viscous loss; grows with W_A from target to target",
+                     "(k = 0) and viscous loss; the loss grows with W_A from target to target",
       .parameters = {{.name = "crack_factor",
                       .unit = "1",
-                      .meaning = "s, rate-dependent work of separation at 1 m/s over W_A",
+                      .meaning = "s, (rate-dependent work of separation at 1 m/s) / W_A",
                       .null_value = 0.0,
                       .initial = 0.15,
                       .lower = 0.0,

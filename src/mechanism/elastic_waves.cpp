@@ -23,15 +23,15 @@ struct ElasticWaves {
 Mechanism elastic_waves() {
   return make_mechanism<ElasticWaves>({
       .id = "elastic_waves",
-      .title = "elastic waves into a thick target",
+      .title = "elastic waves radiated into a thick target",
       .needs_flat = true,
-      .formula = "loss eta D (integral of F'^2 dt), F of the Hertzian impact, D = c(nu) / (2 pi mu "
-                 "c_T) of the surface (c(1/4) = 0.931)",
+      .formula = "energy loss eta D (integral of F'^2 dt), with the force F of the Hertzian impact "
+                 "and D = c(nu) / (2 pi mu c_T) of the target (c(1/4) = 0.931)",
       .source = "Hunter, S. C. (1957), J. Mech. Phys. Solids 5, 162-171; Miller, G. F. & Pursey, "
-                "H. (1955), Proc. R. Soc. A 233, 55-69. The surface's density is taken from the "
-                "dataset, or that of the sphere when none is stated",
-      .fingerprint = "1 - e^2 ~ V^(3/5), alike for all sizes; of the order of 1 % for steel and "
-                     "0.1 % for organic spheres",
+                "H. (1955), Proc. R. Soc. A 233, 55-69. If the dataset states no density of the "
+                "surface, that of the sphere is used",
+      .fingerprint = "1 - e^2 ~ V^(3/5), the same at all sizes; about 1 % for steel and 0.1 % for "
+                     "organic spheres",
       .parameters =
           {{.name = "wave_radiation",
             .unit = "1",
@@ -39,7 +39,7 @@ Mechanism elastic_waves() {
             .initial = 1.0,
             .upper = 1e4,
             .plausible = {0.0, 3.0,
-                          "the theory gives 1; up to 3 allows for a density that is not stated"},
+                          "the theory gives 1; values up to 3 allow for an unstated density"},
             .starts = {10.0}}},
   });
 }

@@ -54,31 +54,30 @@ Mechanism electrostatic_image() {
       .title = "attraction of a charged sphere by its image charge",
       .place = MechanismPlace::field,
       .needs_flat = true,
-      .formula =
-          "gain U on the way in, cost U on the way out: e^2 = e_0^2 - (1 - e_0^2) 2 U / (m V^2), U "
-          "= k q^2 / (16 pi eps0 r), q = 4 pi eps0 r^2 E_s at the reference diameter and q ~ d^p; "
-          "k "
-          "= (eps - 1) / (eps + 1) for a target of the stated relative_permittivity eps; where "
-          "none "
-          "is stated, 1, that of a conductor and the largest",
+      .formula = "the sphere gains the energy U before contact and loses it after: e^2 = e_0^2 - "
+                 "(1 - e_0^2) 2 U / (m V^2), U = k q^2 / (16 pi eps0 r), q = 4 pi eps0 r^2 E_s at "
+                 "the reference diameter and q ~ d^p; k = (eps - 1) / (eps + 1) for a target of "
+                 "the stated relative_permittivity eps; if none is stated, k = 1, the value of a "
+                 "conductor and the largest",
       .source = "Dahneke, B. (1975), J. Colloid Interface Sci. 51, 58-65 (energy balance with a "
                 "potential well); Jackson, Classical Electrodynamics (image of a point charge at a "
                 "conductor and at a dielectric)",
-      .fingerprint = "1 - e^2 ~ V^(-2), only where e_0 < 1; for a given surface field the same at "
-                     "all sizes (V* ~ d^0), for a given charge d^(-4); gone with a neutraliser",
+      .fingerprint = "1 - e^2 ~ V^(-2), only if e_0 < 1; the same at all sizes for a given surface "
+                     "field (V* ~ d^0), d^(-4) for a given charge; vanishes with a neutraliser",
       .parameters =
           {{.name = "surface_field",
             .unit = "V/m",
             .meaning = "E_s, field of the charge at the sphere's surface",
             .initial = 1e6,
             .upper = 1e10,
-            .plausible = {0.0, 1e10, "the domain of the formula"},
+            .plausible = {0.0, 1e10, "limit of the formula"},
             .starts = {1e7, 1e8, 1e9},
-            .limit = {.quantity = "surface field over the strongest that the sphere holds",
-                      .upper = 1.0,
-                      .why = "air breaks down by Peek's law, electrons leave at 9e8 V/m, "
-                             "and handling charges nothing beyond 35 kV",
-                      .of = field_over_strongest},
+            .limit =
+                {.quantity = "surface field / largest field that the sphere can hold",
+                 .upper = 1.0,
+                 .why = "the field is limited by the breakdown of air (Peek's law) and by electron "
+                        "emission at 9e8 V/m; handling charges a sphere to at most 35 kV",
+                 .of = field_over_strongest},
             .stated_by = {none_where(Condition::neutralised)}},
            {.name = "charge_exponent",
             .unit = "1",

@@ -96,24 +96,22 @@ struct FlightDrag {
 Mechanism flight_drag() {
   return make_mechanism<FlightDrag>({
       .id = "flight_drag",
-      .title = "drag of the air on spheres that fall and rise freely",
+      .title = "air drag on spheres that fall and rise freely",
       .place = MechanismPlace::gas,
       .needs_flat = true,
-      .formula =
-          "velocities stand for heights h = V^2 / 2g: the sphere falls from h with d(v^2) / dx "
-          "= 2 g - D, D = (3/2) (rho_a / rho) (C_d / d) v^2, and after the contact rises with "
-          "-2 g - D to the height that is read; C_d = (24 / Re) (1 + 0.150 Re^0.681) + "
-          "0.407 / (1 + 8710 / Re), with Cunningham's slip; density, viscosity and free path of "
-          "air at the stated temperature, else at 293 K",
+      .formula = "velocities are computed from heights h = V^2 / 2g. The sphere falls from h with "
+                 "d(v^2) / dx = 2 g - D, D = (3/2) (rho_a / rho) (C_d / d) v^2, and rises after "
+                 "the contact with -2 g - D to the height that is read. C_d = (24 / Re) (1 + 0.150 "
+                 "Re^0.681) + 0.407 / (1 + 8710 / Re), with Cunningham's slip correction; density, "
+                 "viscosity and mean free path of air at the stated temperature, else at 293 K",
       .source = "Brown, P. P. & Lawler, D. F. (2003), J. Environ. Eng. 129, 222-231 (C_d of a "
-                "sphere, Re < 2e5), as in import. "
-                "Buoyancy does not change the ratio of the heights and is left out; so is the "
-                "added mass, rho_a / 2 rho",
-      .fingerprint = "1 - e^2 ~ V^2 d^(-1) at Re > 1000, V d^(-2) at Re < 1, no dependence on the "
-                     "target: looks like C_H where velocities come from heights; gone in vacuum",
+                "sphere, Re < 2e5), the same drag as in recoil import. Buoyancy does not change "
+                "the ratio of the heights and is neglected; so is the added mass, rho_a / 2 rho",
+      .fingerprint = "1 - e^2 ~ V^2 d^(-1) at Re > 1000, V d^(-2) at Re < 1, independent of the "
+                     "target; resembles C_H if velocities come from heights; vanishes in vacuum",
       .parameters = {{.name = "flight_pressure",
                       .unit = "Pa",
-                      .meaning = "pressure of the air in which the spheres fly",
+                      .meaning = "pressure of the air",
                       .initial = 3e4,
                       .upper = 1e6,
                       .plausible = {0.0, 1.1e5, "an experiment in open air has 1e5 Pa"},

@@ -75,19 +75,18 @@ Mechanism gas_film() {
       .place = MechanismPlace::gas,
       .needs_flat = true,
       .formula =
-          "each way the sphere loses the speed (9 mu / (2 rho r)) (F(L / 6b) + (L / r + (1/8) ln(1 "
-          "+ "
-          "10 L / r)) / C): F(x) = (1 + x)^2 ln(1 + 1 / x) - x + ln x of a film between walls that "
-          "slip by b = 1.15 free paths, drag over the distance L with Cunningham's C, and what the "
-          "wall adds to it; viscosity and free path of air at the stated temperature, else at 293 "
-          "K",
+          "on each way the sphere loses the speed (9 mu / (2 rho r)) (F(L / 6b) + (L / r + (1/8) "
+          "ln(1 + 10 L / r)) / C). F(x) = (1 + x)^2 ln(1 + 1 / x) - x + ln x describes the film "
+          "between walls with the slip length b = 1.15 mean free paths; L / r is the drag over the "
+          "distance L with Cunningham's correction C, and the logarithm is the effect of the wall "
+          "on it; viscosity and mean free path of air at the stated temperature, else at 293 K",
       .source = "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
                 "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
                 "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), "
-                "Chem. Eng. Sci. 16, 242-251 (sphere and wall). Drag is that of Stokes: at Re = 10 "
-                "the true drag is larger by half",
-      .fingerprint = "1 - e^2 ~ V^(-1) d^(-1) (d^(-2) where drag prevails), no dependence on the "
-                     "target; gone in vacuum",
+                "Chem. Eng. Sci. 16, 242-251 (sphere and wall). The drag is that of Stokes; at Re "
+                "= 10 the true drag is 1.5 times as large",
+      .fingerprint = "1 - e^2 ~ V^(-1) d^(-1) (d^(-2) if drag prevails), independent of the "
+                     "target; vanishes in vacuum",
       .parameters =
           {{.name = "gas_pressure",
             .unit = "Pa",
@@ -100,7 +99,7 @@ Mechanism gas_film() {
             .stated_by = {StatedBy{Condition::ambient_pressure}}},
            {.name = "measuring_distance",
             .unit = "m",
-            .meaning = "L, from the measuring plane to the surface",
+            .meaning = "L, distance from the measuring plane to the surface",
             .initial = 2e-5,
             .upper = 1e-1,
             .plausible =

@@ -33,27 +33,26 @@ struct HeightOrigin {
 Mechanism height_origin() {
   return make_mechanism<HeightOrigin>({
       .id = "height_origin",
-      .title = "drop and rebound are read from different points",
+      .title = "drop and rebound heights refer to different points",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::height,
-      .formula =
-          "heights h = V^2 / 2g: that of the rebound is read as h_2 + delta, that of the drop "
-          "as h_1 + s delta; e^2 = (e_0^2 (h_1 - s delta) + delta) / h_1 with h_1 as read",
+      .formula = "heights h = V^2 / 2g: the rebound height is read as h_2 + delta, the drop height "
+                 "as h_1 + s delta; e^2 = (e_0^2 (h_1 - s delta) + delta) / h_1 with h_1 as read",
       .source = "Galileo's law of falling bodies; a height is that of the sphere's lowest point "
-                "above the surface: read at its centre or top it is too large by r or 2 r",
-      .fingerprint = "1 - e^2 changes by 2 g delta / V^2, the same at all sizes and targets: e is "
-                     "too high, or too low, where spheres fall from a low height. With s = 1 the "
-                     "same as probe_plane at h = -delta",
+                "above the surface; a height read at the centre or top is too large by r or 2 r",
+      .fingerprint =
+          "1 - e^2 changes by 2 g delta / V^2, the same at all sizes and targets: e is too high or "
+          "too low at small drop heights. With s = 1 it equals probe_plane with h = -delta",
       .parameters =
           {{.name = "height_error",
             .unit = "m",
-            .meaning = "delta, by which the height of the rebound is read too large",
+            .meaning = "delta, error of the rebound height",
             .initial = 1e-5,
             .lower = -0.1,
             .upper = 0.1,
-            .plausible = {-0.1, 0.1, "the domain of the formula"},
+            .plausible = {-0.1, 0.1, "limit of the formula"},
             .starts = {-1e-5, 1e-4, -1e-4, 5e-3, -5e-3},
-            .limit = {.quantity = "error of the height over the diameter",
+            .limit = {.quantity = "error of the height / diameter",
                       .lower = -1.0,
                       .upper = 1.0,
                       .why = "two points of a sphere are at most one diameter apart",
@@ -62,14 +61,14 @@ Mechanism height_origin() {
             .stated_by = {none_where(Condition::velocities_calibrated)}},
            {.name = "drop_share",
             .unit = "1",
-            .meaning = "s, share of delta in the height of the drop",
+            .meaning = "s, error of the drop height / delta",
             .lower = -1.0,
             .upper = 1.0,
             .plausible = {-1.0, 1.0, "both heights have an error of the same size"},
             .free = false}},
       .methods = {Method::drop_heights},
       .taken_away = TakenAway{Condition::velocities_calibrated, 1.0,
-                              "read both heights from one point of the sphere"},
+                              "read both heights at the same point of the sphere"},
   });
 }
 

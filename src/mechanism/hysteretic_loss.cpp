@@ -18,14 +18,14 @@ Mechanism hysteretic_loss() {
       .id = "hysteretic_loss",
       .title = "a constant share of the elastic energy is lost",
       .dry_loss = "constant",
-      .formula = "loss eta (2/5) K R^(1/2) n_max^(5/2), the share eta of the elastic energy at the "
-                 "deepest point of the undamped impact; without adhesion e^2 = e_0^2 - eta",
-      .source =
-          "Greenwood, J. A., Minshall, H. & Tabor, D. (1961), Proc. R. Soc. A 259, 480-507 "
-          "(hysteresis of rubber); Johnson, K. L. (1985), Contact Mechanics, section 9.2; that "
-          "damping makes the contact smaller is left out",
-      .fingerprint = "1 - e^2 ~ V^0 d^0: e is lower by the same amount at all velocities, sizes "
-                     "and targets, as long as adhesion is small; alone it captures nothing",
+      .formula = "energy loss eta (2/5) K R^(1/2) n_max^(5/2), a share eta of the elastic energy "
+                 "at the deepest point of the undamped impact; without adhesion e^2 = e_0^2 - eta",
+      .source = "Greenwood, J. A., Minshall, H. & Tabor, D. (1961), Proc. R. Soc. A 259, 480-507 "
+                "(hysteresis of rubber); Johnson, K. L. (1985), Contact Mechanics, section 9.2; "
+                "that damping makes the contact smaller is neglected",
+      .fingerprint =
+          "1 - e^2 ~ V^0 d^0: e is lower by the same amount at all velocities, sizes and targets, "
+          "as long as adhesion is small; without adhesion it causes no capture",
       .parameters = {{.name = "hysteretic_share",
                       .unit = "1",
                       .meaning = "eta, share of the elastic energy that is lost",

@@ -29,27 +29,24 @@ Mechanism jkr_hysteresis() {
       .id = "jkr_hysteresis",
       .title = "adhesive contact that breaks at a larger distance than it forms (JKR)",
       .cause = "adhesion hysteresis",
-      .formula =
-          "constant work lost per impact, 7.0922 (W^5 R^4 / E*^2)^(1/3), W = s W_A with W_A of the "
-          "two bodies; e^2 = e_0^2 - (V_s / V)^2",
+      .formula = "a constant energy loss per impact, 7.0922 (W^5 R^4 / E*^2)^(1/3), W = s W_A with "
+                 "W_A of the two bodies; e^2 = e_0^2 - (V_s / V)^2",
       .source =
-          "Johnson, K. L., Kendall, K. & Roberts, A. D. (1971), Proc. R. Soc. A 324, "
-          "301-313; Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162. The number "
-          "7.0922 holds from a Tabor parameter mu = (R W^2 / (E*^2 z0^3))^(1/3) (z0 = 0.4 nm) "
-          "of about 3 to 5, and falls to nothing towards 1: Greenwood, J. A. (1997), Proc. R. "
-          "Soc. A 453, 1277-1297",
-      .fingerprint =
-          "1 - e^2 falls like V^-2 d^(-5/3), e towards 1 far above capture; V* ~ d^(-5/6), which a "
-          "freed size law takes for f0 ~ r^(5/9); V* ~ W_A^(5/6) between targets",
+          "Johnson, K. L., Kendall, K. & Roberts, A. D. (1971), Proc. R. Soc. A 324, 301-313; "
+          "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162. The factor 7.0922 holds "
+          "for Tabor parameters mu = (R W^2 / (E*^2 z0^3))^(1/3) (z0 = 0.4 nm) above about 3 to 5 "
+          "and falls to 0 towards 1: Greenwood, J. A. (1997), Proc. R. Soc. A 453, 1277-1297",
+      .fingerprint = "1 - e^2 ~ V^(-2) d^(-5/3): e approaches 1 far above capture; V* ~ d^(-5/6), "
+                     "which a free size law fits as f0 ~ r^(5/9); V* ~ W_A^(5/6) between targets",
       .parameters =
           {{.name = "jkr_factor",
             .unit = "1",
-            .meaning = "s, work of adhesion of the JKR contact over W_A",
+            .meaning = "s, work of adhesion of the JKR contact / W_A",
             .initial = 0.3,
             .upper = 150.0,
             .plausible = {0.0, 3.0,
                           "rough or covered surfaces have less than W_A, down to a hundredth; for "
-                          "soft solids Gilman's estimate is about half of what is measured"},
+                          "soft solids Gilman's estimate is about half of the measured value"},
             .starts = {0.05, 1.5},
             .limit =
                 {.quantity = "Tabor parameter mu of the largest sphere",
@@ -60,8 +57,8 @@ Mechanism jkr_hysteresis() {
       .needs_adhesion = true,
       .refused = [](AdhesionLaw law) -> std::string_view {
         if (law == AdhesionLaw::ring) return {};
-        return traits(law).jumps ? "that law loses this work by itself: it would count twice"
-                                 : "such a contact separates as it formed, without a jump";
+        return traits(law).jumps ? "that law already contains this loss, which would count twice"
+                                 : "such a contact forms and separates without a jump";
       },
   });
 }

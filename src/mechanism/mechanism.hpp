@@ -128,7 +128,8 @@ struct Mechanism {
   /// Why it cannot stand beside this law of adhesion; empty when it can.
   std::string_view refusal(AdhesionLaw adhesion) const {
     if (dashpot && !traits(adhesion).has_dashpot) {
-      return "its force does not vanish where that contact parts, which is not worked out";
+      return "its force does not vanish where that contact separates, and no solution for this is "
+             "implemented";
     }
     return info.refused == nullptr ? std::string_view() : info.refused(adhesion);
   }

@@ -23,18 +23,19 @@ Mechanism outliers() {
       .title = "rebounds that were paired with the wrong impact",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::pairing,
-      .formula = "the share q of all pairs is matched by chance, with e uniform between 0 and 1: "
-                 "the mean is (1 - q) e + q / 2. Single wild points are a matter of the noise "
-                 "(Student's t), not of this",
-      .source = "no further source",
-      .fingerprint = "draws e towards 1/2 at all velocities: too low where e is high, too high "
+      .formula = "a share q of all pairs is matched by chance and has e uniform between 0 and 1; "
+                 "the mean is (1 - q) e + q / 2. Single outlying points belong to the noise "
+                 "(Student's t), not to this mechanism",
+      .source = "no published source",
+      .fingerprint = "moves e towards 1/2 at all velocities: too low where e is high, too high "
                      "near capture; the same at all sizes and targets",
       .parameters = {{.name = "outlier_share",
                       .unit = "1",
-                      .meaning = "q, share of the pairs that do not belong together",
+                      .meaning = "q, share of wrong pairs",
                       .initial = 0.03,
                       .upper = 0.9,
-                      .plausible = {0.0, 0.2, "more than a fifth would show in every histogram"},
+                      .plausible = {0.0, 0.2,
+                                    "a share above a fifth would show in every histogram"},
                       .starts = {0.1}}},
       .methods = {Method::velocimeter},
   });

@@ -79,46 +79,43 @@ Mechanism plastic_yield() {
       .id = "plastic_yield",
       .title = "plastic yielding of the contact",
       .dry_loss = "yield",
-      .formula =
-          "the pressure of the JKR contact is cut off at p = p_Y (V / (1 m/s))^q (d / (10 "
-          "um))^(-5q/3) on the way in, the contact unloads with the flattened radius R_p: e_p^2 = "
-          "(U(a*) - U(a_0)) / (m V^2 / 2), U(a) = (8/15) E* a^5 / R_p^2 - (4/3) (2 pi W E*)^(1/2) "
-          "a^(7/2) / R_p + pi W a^2 from the turning point a* back to zero approach, a_0^3 = 2 pi "
-          "W "
-          "R_p^2 / E*; W = s (2 pi f0)^(3/2) / (6 pi (K r)^(1/2)). Without adhesion, above V_Y = "
-          "1.56 (p^5 / (E*^4 rho))^(1/2): e_p^2 = (6 sqrt(3) / 5) (1 - y^2/6) (y / (y + 2 (6/5 - "
-          "y^2/5)^(1/2)))^(1/2), y = V_Y / V. Times (1 + (c V / V_t)^2)^(-1/4), V_t = 0.020 (p / "
-          "rho)^(1/2)",
+      .formula = "the pressure of the JKR contact is limited to p = p_Y (V / (1 m/s))^q (d / (10 "
+                 "um))^(-5q/3) during approach; the contact unloads with the flattened radius R_p: "
+                 "e_p^2 = (U(a*) - U(a_0)) / (m V^2 / 2), U(a) = (8/15) E* a^5 / R_p^2 - (4/3) (2 "
+                 "pi W E*)^(1/2) a^(7/2) / R_p + pi W a^2 from the turning point a* back to zero "
+                 "approach, a_0^3 = 2 pi W R_p^2 / E*; W = s (2 pi f0)^(3/2) / (6 pi (K r)^(1/2)). "
+                 "Without adhesion, above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2): e_p^2 = (6 sqrt(3) "
+                 "/ 5) (1 - y^2/6) (y / (y + 2 (6/5 - y^2/5)^(1/2)))^(1/2), y = V_Y / V. Times (1 "
+                 "+ (c V / V_t)^2)^(-1/4), V_t = 0.020 (p / rho)^(1/2)",
       .source =
-          "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162; Johnson, K. L. "
-          "(1985), Contact Mechanics, section 11.5; for c Wu, C.-Y., Li, L.-Y. & Thornton, C. "
-          "(2003), Int. J. Impact Eng. 28, 929-946, e ~ V^(-1/2) of finite elements, joined here: "
-          "at V_t 8 % of e lie below the two asymptotes. It holds where V_t is far above V_Y, p "
-          "below 0.05 E*; stronger solids are at large elastic strain first",
+          "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162; Johnson, K. L. (1985), "
+          "Contact Mechanics, section 11.5; for c Wu, C.-Y., Li, L.-Y. & Thornton, C. (2003), Int. "
+          "J. Impact Eng. 28, 929-946, whose finite elements give e ~ V^(-1/2); the factor that "
+          "joins both laws lies 8 % below the two asymptotes at V_t. It holds if V_t is far above "
+          "V_Y, p below 0.05 E*; stronger solids first reach large elastic strains",
       .fingerprint =
-          "e falls with V above a threshold, concave, towards V^(-1/4 + 5q/8), alike for "
-          "all targets, and for all sizes where q = 0; else small spheres, which strain "
-          "faster, lose less: e ~ d^(-25q/24). Near capture adhesion helps the contact to yield, "
-          "and the flattened contact sticks better, so that capture sets in earlier and steeper "
-          "with size",
+          "above a threshold e falls with V, concave, towards V^(-1/4 + 5q/8), the same for all "
+          "targets, and for all sizes if q = 0. If q > 0, small spheres strain faster and lose "
+          "less: e ~ d^(-25q/24). Near capture, adhesion helps the contact to yield, and the "
+          "flattened contact adheres more strongly: V* is higher and depends more strongly on size",
       .parameters =
           {{.name = "yield_pressure",
             .unit = "Pa",
-            .meaning = "contact pressure at which the softer body flows",
+            .meaning = "contact pressure at which the softer body yields",
             .null_value = 1e12,
             .initial = 3e8,
             .lower = 1e5,
             .upper = 1e12,
-            .plausible = {1e5, 1e12, "the domain of the formula"},
+            .plausible = {1e5, 1e12, "limit of the formula"},
             .starts = {3e7, 1e8, 1e9, 3e9},
             .log_scale = true,
             // Frenkel 1926, Z. Phys. 37, 572-609: no solid resists a shear of more than about a
             // tenth of its modulus; Tabor 1951, The Hardness of Metals: a contact flows at 2.8
             // times the yield stress, which annealed pure metals have at some 1e-4 of the modulus.
-            .limit = {.quantity = "yield pressure over the reduced modulus of the bodies",
+            .limit = {.quantity = "yield pressure / reduced modulus",
                       .lower = 5e-4,
                       .upper = 0.3,
-                      .why = "no solid resists more than about 0.3, and only soft pure metals flow "
+                      .why = "no solid withstands more than about 0.3; only soft pure metals yield "
                              "below 0.001",
                       .sharp = true,
                       .of =
@@ -137,7 +134,7 @@ Mechanism plastic_yield() {
             .free = false},
            {.name = "yield_adhesion",
             .unit = "1",
-            .meaning = "s, work of adhesion that helps the contact to yield, over that of f0",
+            .meaning = "s, work of adhesion of the yielding contact / that of f0",
             .initial = 1.0,
             .upper = 100.0,
             .plausible = {0.0, 3.0, "the adhesion of the base model within its uncertainty"},
@@ -148,7 +145,7 @@ Mechanism plastic_yield() {
             .meaning = "c, scale of the loss at large deformation: 1 as in the finite elements, 0 "
                        "for none",
             .upper = 10.0,
-            .plausible = {0.0, 1.0, "between none of it and what the finite elements show"},
+            .plausible = {0.0, 1.0, "between no such loss and that of the finite elements"},
             .free = false,
             .searched = false}},
       .needs_flow = true,

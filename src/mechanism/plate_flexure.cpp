@@ -18,14 +18,14 @@ Mechanism plate_flexure() {
       .id = "plate_flexure",
       .title = "flexural waves in a thin target",
       .needs_flat = true,
-      .formula = "the struck place yields with the velocity F / Z: n'' = -F / m - F' / Z, for a "
-                 "plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
-      .source = "Zener, C. (1941), Phys. Rev. 59, 669-673. The flexure by the adhesion force is "
-                "left out. "
-                "A target thicker than c_T t_c / 2 is a half-space: no wave comes back during the "
-                "contact",
+      .formula =
+          "at the point of impact the target moves with the velocity F / Z: n'' = -F / m - F' / Z, "
+          "for a plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
+      .source = "Zener, C. (1941), Phys. Rev. 59, 669-673. Flexure by the adhesion force is "
+                "neglected. A target thicker than c_T t_c / 2 acts as a half-space: no reflected "
+                "wave returns during the contact",
       .fingerprint = "1 - e^2 ~ V^(1/5) d^(+2): large spheres lose most, the opposite of adhesion; "
-                     "no dependence on surface energy",
+                     "independent of the surface energy",
       .parameters =
           {{.name = "plate_mobility",
             .unit = "s/kg",
@@ -44,7 +44,7 @@ Mechanism plate_flexure() {
                                    }}}}},
       .taken_away =
           TakenAway{Condition::target_thickness, 0.05,
-                    "take a plate so thick that its waves do not come back during the contact",
+                    "use a plate so thick that no reflected wave returns during the contact",
                     // from the struck face to the other and back, at the speed of shear waves
                     [](const Encounter<double>& sphere) {
                       return 0.5 * sphere.at->shear_speed * sphere.hertz_contact_time();

@@ -40,11 +40,10 @@ Mechanism polydispersity() {
       .place = MechanismPlace::spread,
       .formula =
           "diameters are lognormal with the stated one as their mean (by number) and s as the "
-          "standard deviation of ln d, cut off at 2.62 s; a point is the mean e of those that "
-          "rebound",
+          "standard deviation of ln d, truncated at 2.62 s; a point is the mean e of rebounds",
       .source = "Hinds, W. C., Aerosol Technology (lognormal sizes)",
-      .fingerprint = "rounds e(V) off near capture, where only the large ones come back: e too "
-                     "high just above V*, where the mean sphere would hardly rebound",
+      .fingerprint = "rounds off e(V) near capture, where only the large spheres rebound: just "
+                     "above V* of the mean sphere, e is too high",
       .parameters =
           {{.name = "size_spread",
             .unit = "1",

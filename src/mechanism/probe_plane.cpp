@@ -23,18 +23,18 @@ Mechanism probe_plane() {
       .title = "the measuring plane is higher than the correction assumes",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::height,
-      .formula =
-          "spheres fall: V^2 = V_p^2 + 2 g h on the way in, V_p^2 = V^2 - 2 g h on the way out",
+      .formula = "spheres fall freely: V^2 = V_p^2 + 2 g h before the contact, V_p^2 = V^2 - 2 g h "
+                 "after it",
       .source = "Galileo's law of falling bodies; Li, X., Dunn, P. F. & Brach, R. M. (1999) "
                 "measure above the surface",
       .fingerprint = "1 - e^2 ~ V^(-2) at low V, the same at all sizes and for all targets",
       .parameters = {{.name = "plane_height",
                       .unit = "m",
-                      .meaning = "h, the height that is left uncorrected",
+                      .meaning = "h, uncorrected height of the measuring plane",
                       .initial = 1e-4,
                       .lower = -1e-2,
                       .upper = 1e-1,
-                      .plausible = {-2e-3, 5e-3, "beams are placed within a few mm"},
+                      .plausible = {-2e-3, 5e-3, "beams are within a few mm of the surface"},
                       .starts = {1e-3, -1e-4},
                       // A height above 0 may have been corrected for.
                       .stated_by = {StatedBy{Condition::probe_height,

@@ -35,23 +35,24 @@ struct ReboundTruncation {
 Mechanism rebound_truncation() {
   return make_mechanism<ReboundTruncation>({
       .id = "rebound_truncation",
-      .title = "slow rebounds that are never seen",
+      .title = "slow rebounds that are not detected",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::selection,
-      .formula = "rebounds slower than V_min do not reach the measuring plane; e scatters by the "
-                 "fraction s from impact to impact, and a point is the mean of what is seen",
-      .source = "a beam at the height h sees nothing below (2 g h)^(1/2); the mean of a truncated "
-                "normal variable",
-      .fingerprint = "near capture e stays above V_min / V, and what looks like capture is slow "
-                     "rebound: the same V_min for all sizes and targets",
+      .formula =
+          "rebounds slower than V_min do not reach the measuring plane; e scatters by the fraction "
+          "s from impact to impact, and a point is the mean of the detected rebounds",
+      .source = "a beam at the height h detects no rebound slower than (2 g h)^(1/2); the mean of "
+                "a truncated normal variable",
+      .fingerprint = "near capture e stays above V_min / V, and slow rebounds look like captures; "
+                     "V_min is the same for all sizes and targets",
       .parameters =
           {{.name = "slowest_rebound",
             .unit = "m/s",
-            .meaning = "V_min, slowest rebound that is seen",
+            .meaning = "V_min, slowest rebound that is detected",
             .initial = 0.1,
             .upper = 50.0,
             .plausible = {0.0, 0.5,
-                          "a beam 1 mm above the surface misses what is slower than 0.14 m/s"},
+                          "a beam 1 mm above the surface misses rebounds slower than 0.14 m/s"},
             .starts = {0.02, 0.3}},
            {.name = "event_scatter",
             .unit = "1",

@@ -18,20 +18,19 @@ struct SeriesOffset {
 Mechanism series_offset() {
   return make_mechanism<SeriesOffset>({
       .id = "series_offset",
-      .title = "each series is off by a constant of its own",
+      .title = "each series has a constant error of its own",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::batch,
-      .formula = "e is read as e + o, o one number for each series",
-      .source = "a batch effect (day, adjustment, humidity); no further source",
+      .formula = "e is read as e + o, with one offset o for each series",
+      .source = "a batch effect (day, adjustment, humidity); no published source",
       .fingerprint = "the residuals of one series have the same sign at all velocities. With one "
-                     "size per series it takes up part of any effect of size",
+                     "size per series it absorbs part of any effect of size",
       .parameters = {{.name = "series_offset",
                       .unit = "1",
-                      .meaning = "o, by which e is read too high in this series",
+                      .meaning = "o, error of e in this series",
                       .lower = -0.5,
                       .upper = 0.5,
-                      .plausible = {-0.1, 0.1,
-                                    "a batch that is off by more than 0.1 in e would be seen"},
+                      .plausible = {-0.1, 0.1, "an error of e above 0.1 would be noticed"},
                       .per_series = true}},
   });
 }

@@ -23,11 +23,11 @@ Mechanism size_calibration() {
       .place = MechanismPlace::size,
       .formula = "true diameter (1 + s) d",
       .source = "Li, X., Dunn, P. F. & Brach, R. M. (1999) state the error of their sizes",
-      .fingerprint = "V* shifts by 5/4 of the relative error at all sizes alike; at one size the "
-                     "same as a wrong f0 or density",
+      .fingerprint = "V* shifts by 5/4 of the relative error, the same at all sizes; at one size "
+                     "it equals a wrong f0 or density",
       .parameters = {{.name = "diameter_error",
                       .unit = "1",
-                      .meaning = "s, true diameter over the stated one, less 1",
+                      .meaning = "s, true diameter / stated diameter - 1",
                       .initial = 0.02,
                       .lower = -0.8,
                       .upper = 4.0,
@@ -36,7 +36,7 @@ Mechanism size_calibration() {
                       .starts = {-0.02, 0.1, -0.1},
                       .stated_by = {none_where(Condition::sizes_calibrated)}}},
       .taken_away = TakenAway{Condition::sizes_calibrated, 1.0,
-                              "measure the spheres against a standard of length"},
+                              "calibrate the diameters against a length standard"},
   });
 }
 

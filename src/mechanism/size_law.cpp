@@ -16,25 +16,22 @@ struct SizeLaw {
 Mechanism size_law() {
   return make_mechanism<SizeLaw>({
       .id = "size_law",
-      .title = "adhesion that follows another power of the size",
+      .title = "adhesion with another power of the size",
       .kind = MechanismKind::description,
       .place = MechanismPlace::size,
       .formula = "f0 ~ r^p",
       .source = "generalises equation 12 of Li, X., Dunn, P. F. & Brach, R. M. (1999), p = 1/3",
-      .fingerprint = "takes up any dependence on size: p near 5/9 is what a rate-independent loss "
-                     "(JKR, area hysteresis) leaves. It describes, and explains nothing",
-      .parameters =
-          {{.name = "size_exponent",
-            .unit = "1",
-            .meaning = "p, exponent of f0 in the radius",
-            .null_value = 1.0 / 3.0,
-            .initial = 1.0 / 3.0,
-            .lower = -2.0,
-            .upper = 4.0,
-            .plausible =
-                {1.0 / 3.0, 1.0 / 3.0,
-                 "equation 12 has 1/3; another value stands in for a cause that is not named"},
-            .starts = {0.55, 0.1}}},
+      .fingerprint = "absorbs any dependence on size; a rate-independent loss (JKR, area "
+                     "hysteresis) gives p near 5/9. It is a description, not a cause",
+      .parameters = {{.name = "size_exponent",
+                      .unit = "1",
+                      .meaning = "p, exponent of f0 in the radius",
+                      .null_value = 1.0 / 3.0,
+                      .initial = 1.0 / 3.0,
+                      .lower = -2.0,
+                      .upper = 4.0,
+                      .plausible = {1.0 / 3.0, 1.0 / 3.0, "equation 12 has 1/3"},
+                      .starts = {0.55, 0.1}}},
   });
 }
 

@@ -16,17 +16,16 @@ struct SurvivorBias {
 Mechanism survivor_bias() {
   return make_mechanism<SurvivorBias>({
       .id = "survivor_bias",
-      .title = "adhesion differs from impact to impact, and only survivors are averaged",
+      .title = "adhesion varies from impact to impact, and only rebounds are averaged",
       .cause = "unequal impacts averaged in one point",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
-      .formula =
-          "f0 is lognormal from impact to impact, cut off at 2.62 standard deviations of ln f0; a "
-          "point is the mean e of those that rebound",
-      .source = "Rabinovich, Y. I. et al. (2000), J. Colloid Interface Sci. 232, 10-16 (adhesion "
-                "between rough surfaces) for why adhesion scatters",
-      .fingerprint = "flattens e(V) near capture and hides the capture velocity: spheres are seen "
-                     "to rebound where the typical one sticks",
+      .formula = "f0 is lognormal from impact to impact, truncated at 2.62 standard deviations of "
+                 "ln f0; a point is the mean e of rebounds",
+      .source = "Rabinovich, Y. I. et al. (2000), J. Colloid Interface Sci. 232, 10-16 (scatter of "
+                "the adhesion between rough surfaces)",
+      .fingerprint = "flattens e(V) near capture and hides the capture velocity: some spheres "
+                     "rebound at velocities at which the typical one sticks",
       .parameters = {{.name = "adhesion_spread",
                       .unit = "1",
                       .meaning = "standard deviation of ln(f0) from impact to impact",

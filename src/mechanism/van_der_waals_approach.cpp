@@ -20,18 +20,18 @@ Mechanism van_der_waals_approach() {
       .id = "van_der_waals_approach",
       .title = "attraction of the surfaces before they touch",
       .place = MechanismPlace::field,
-      .formula = "gain U = A R / (6 z0) on the way in, z0 = 0.4 nm, cost U on the way out: e^2 = "
-                 "e_0^2 - (1 - e_0^2) 2 U / (m V^2)",
-      .source =
-          "Hamaker, H. C. (1937), Physica 4, 1058-1072; Dahneke, B. (1975), J. Colloid "
-          "Interface Sci. 51, 58-65 (energy balance with a potential well). Only A / z0 is "
-          "fitted: with the z0 of 0.165 nm that Israelachvili takes for surface energies, A is "
-          "0.41 of the value given here",
-      .fingerprint = "1 - e^2 ~ V^(-2) d^(-2), only where e_0 < 1; V* ~ d^(-1) where it decides",
+      .formula = "the sphere gains the energy U = A R / (6 z0), z0 = 0.4 nm, before contact and "
+                 "loses it after: e^2 = e_0^2 - (1 - e_0^2) 2 U / (m V^2)",
+      .source = "Hamaker, H. C. (1937), Physica 4, 1058-1072; Dahneke, B. (1975), J. Colloid "
+                "Interface Sci. 51, 58-65 (energy balance with a potential well). Only A / z0 is "
+                "fitted; with z0 = 0.165 nm, which Israelachvili uses for surface energies, A is "
+                "0.41 times the value given here",
+      .fingerprint =
+          "1 - e^2 ~ V^(-2) d^(-2), only if e_0 < 1; V* ~ d^(-1) if it causes the capture",
       .parameters =
           {{.name = "hamaker_constant",
             .unit = "J",
-            .meaning = "A, Hamaker's constant of the two bodies",
+            .meaning = "A, Hamaker constant of the two bodies",
             .initial = 1e-19,
             .upper = 1e-15,
             .plausible = {0.0, 5e-19,
@@ -40,7 +40,7 @@ Mechanism van_der_waals_approach() {
             .starts = {1e-20, 1e-18}}},
       .refused = [](AdhesionLaw law) -> std::string_view {
         if (!traits(law).attracts_at_distance) return {};
-        return "that law has the attraction before contact itself: it would count twice";
+        return "that law already contains the attraction before contact, which would count twice";
       },
   });
 }

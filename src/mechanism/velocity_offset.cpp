@@ -22,27 +22,27 @@ struct VelocityOffset {
 Mechanism velocity_offset() {
   return make_mechanism<VelocityOffset>({
       .id = "velocity_offset",
-      .title = "the velocimeter reads too high, or too low, by a constant",
+      .title = "the velocimeter has a constant velocity error",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::instrument,
-      .formula = "the incident velocity is read as V + delta, that of the rebound as V_r + s "
-                 "delta: s = 1 where speeds are off, -1 where velocities are off with their sign "
-                 "(a residual frequency shift)",
-      .source = "an instrument's zero error; no further source",
+      .formula = "the incident velocity is read as V + delta, the rebound velocity as V_r + s "
+                 "delta; s = 1 for an error of the speed, s = -1 for an error of the signed "
+                 "velocity (a residual frequency shift)",
+      .source = "zero error of an instrument; no published source",
       .fingerprint = "e changes by (s - e) delta / V: 1 - e^2 ~ V^(-1), the same at all sizes and "
                      "targets",
       .parameters = {{.name = "velocity_error",
                       .unit = "m/s",
-                      .meaning = "delta, by which the velocity is read too high",
+                      .meaning = "delta, error of the incident velocity",
                       .initial = 1e-2,
                       .lower = -10.0,
                       .upper = 10.0,
-                      .plausible = {-0.1, 0.1, "a velocimeter's zero is good to a few cm/s"},
+                      .plausible = {-0.1, 0.1, "velocimeters have zero errors of a few cm/s"},
                       .starts = {-1e-2, 1e-1, -1e-1},
                       .stated_by = {none_where(Condition::velocities_calibrated)}},
                      {.name = "rebound_sign",
                       .unit = "1",
-                      .meaning = "s, share of delta by which the rebound is read too high",
+                      .meaning = "s, error of the rebound velocity / delta",
                       .null_value = 1.0,
                       .initial = 1.0,
                       .lower = -1.0,

@@ -37,8 +37,13 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
     if (const auto aicc = fit.aicc()) best = std::min(best.value_or(*aicc), *aicc);
   }
   Table table;
-  table.columns = {{"fit"},      {"adhesion"}, {"free"}, {"chi2"}, {"AICc above the best"},
-                   {"rms of e"}, {"held out"}};
+  table.columns = {{"fit"},
+                   {"adhesion"},
+                   {"free"},
+                   {"chi-square"},
+                   {"AICc above the best"},
+                   {say("rms of {e}")},
+                   {"held out"}};
   for (const ComparedFit& fit : fits) {
     const auto aicc = fit.aicc();
     table.rows.push_back(
@@ -267,7 +272,10 @@ std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits) {
 
 std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
   if (laws.size() < 2) return {};
-  return {quality_table(laws), Paragraph{dependence_words(choice_dependence(laws))}};
+  Table table = quality_table(laws);
+  table.columns.front().heading = "law of adhesion";
+  for (std::size_t k = 0; k < laws.size(); ++k) table.rows[k].front() = words_of(laws[k].adhesion);
+  return {table, Paragraph{dependence_words(choice_dependence(laws))}};
 }
 
 namespace {

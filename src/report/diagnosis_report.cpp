@@ -98,10 +98,10 @@ std::vector<CandidateResult> tried(const Diagnosis& d) {
 Table candidates_table(const Diagnosis& d) {
   Table table;
   table.compact = true;
-  table.caption = say(
-      "Mechanisms added to the model, one or two at a time. Gain: of the corrected criterion "
-      "(AICc). {p}: share of simulated data sets in which the best of all candidates gains as much "
-      "by chance. Left: p-value of the remaining structure");
+  table.caption =
+      say("Mechanisms added to the model, alone or in pairs. Gain: decrease of AICc. {p}: share of "
+          "simulated data sets in which the best of all candidates gains as much by chance. Left: "
+          "p-value of the structure that remains");
   table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
                    {"held out"},  {"left"}, {"verdict", "", true}};
   std::size_t others = 0;
@@ -146,7 +146,7 @@ std::string remark_of(const HeldOutGain::PerFold& fold) {
 Table held_out_table(const Diagnosis& d) {
   Table table;
   if (!d.gain) return table;
-  table.caption = "Both models fitted without a block of points, and compared with it";
+  table.caption = "Both models are fitted without a block of points and compared with that block";
   table.columns = {{"held out"},
                    {"points"},
                    {say("rms of {e}, base")},
@@ -212,7 +212,7 @@ Table next_experiment_table(const Diagnosis& d) {
   if (d.experiments.empty()) return table;
   table.compact = true;
   table.caption =
-      "Experiments with the least effort: impacts until the expected odds between two causes are "
+      "Experiments with the fewest impacts: impacts that make the expected odds between two causes "
       "99 to 1";
   table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
                    {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
@@ -253,7 +253,7 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
   return {answer_section(d),
           {"picture", "", {}, {Figures{std::move(answer)}}},
-          detail_section("misfit", "Where the model misses",
+          detail_section("misfit", "Misfit by velocity and diameter",
                          {Figures{std::move(where)}, structure_table(d), misfit_table(d)}),
           detail_section("causes", "Every cause tried", {candidates_table(d), causes_list(d)}),
           detail_section("gain", "The extended model",

@@ -118,14 +118,13 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});
   plot::Picture picture;
   picture.name = fmt::format("misfit-{}", dataset);
-  picture.title =
-      "Where the base model misses, over velocity and diameter" + in_dataset(d, dataset);
+  picture.title = "Misfit of the base model against velocity and diameter" + in_dataset(d, dataset);
   picture.height = 300;
   picture.plots = {std::move(shown)};
-  return figure_of(
-      std::move(picture),
-      "Every disc is a point, larger for more standard deviations. Orange: e lies above the model; "
-      "blue: below. Patches of one colour are structure, a mixture is noise.");
+  return figure_of(std::move(picture),
+                   "Each disc is a point; larger discs deviate by more standard deviations. "
+                   "Orange: e is above the model; blue: below. Patches of one colour indicate "
+                   "structure, a mixture indicates noise.");
 }
 
 /// The base curve and the extended one of one diameter.

@@ -99,8 +99,9 @@ Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
   }
   if (a.fitted.noise_verdict == NoiseVerdict::exceeded && diagnosis->spec.law_error > 0.0) {
     return say(
-        "The model fits if its laws may be wrong by {}; as exact laws they do not fit: the "
-        "residuals are {} times the stated noise, and all intervals are widened by this factor.",
+        "The model fits if its laws are allowed an error of {}. With exact laws it does not fit: "
+        "the residuals are {} times the stated noise, and all intervals are widened by this "
+        "factor.",
         percent(diagnosis->spec.law_error), number(a.fitted.noise_scale, 3));
   }
   return tests_the_curve(*diagnosis) ? "The model fits." : "These points cannot test the model.";
@@ -113,7 +114,7 @@ Sentence bound_words(const FitResult& f) {
     names.push_back(symbol(f.model.slots[j].label()));
   }
   if (names.empty()) return {};
-  return say("{} rests on its upper bound: widen the bounds before reading anything into the fit.",
+  return say("{} is at its upper bound: widen the bounds before you interpret the fit.",
              join(names, ", "));
 }
 
@@ -134,8 +135,8 @@ Sentence odd_point_words(const Analysis& a) {
   verdict.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(verdict.front())));
   verdict.pop_back();  // the full stop
   return say(
-      "Line {}{} ({e} = {:.3g} at {:.3g} m/s) lies {:.1f} standard deviations from what the "
-      "others predict. Without it {}; {}.",
+      "Line {}{} ({e} = {:.3g} at {:.3g} m/s) lies {:.1f} standard deviations from the prediction "
+      "of the others. Without it {}; {}.",
       point.line, a.datasets.size() > 1 ? " of " + a.datasets[point.dataset].id : std::string(),
       point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
 }
@@ -161,7 +162,7 @@ Sentence own_design_words(const Analysis& a, double below) {
 /// e(V) with all sizes: the only panel, or all of them in one picture.
 Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
   if (panels.size() == 1) return {panels};
-  Sentence caption = say("Points and fit with its {} band.", percent(a.uncertainty.options.level));
+  Sentence caption = say("Points, fit and its {} band.", percent(a.uncertainty.options.level));
   if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
   return {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
 }
@@ -191,7 +192,7 @@ Section sizes_section(const Analysis& a, std::vector<Figure> panels,
                       const RestitutionSummary& summary) {
   if (panels.size() == 1) panels.clear();  // the answer shows it
   for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
-  return detail_section("sizes", "Every size, and the residuals",
+  return detail_section("sizes", "Sizes and residuals",
                         {Figures{std::move(panels)}, restitution_table(summary, a.datasets)});
 }
 
@@ -219,7 +220,7 @@ Section certainty_section(const Analysis& a) {
   }
   for (Sentence& words : budget_sentences(a)) sentences.push_back(std::move(words));
   sentences.push_back(moved_words(a));
-  return detail_section("certainty", "How certain the numbers are",
+  return detail_section("certainty", "Uncertainty",
                         {list_of_sentences(sentences), constants_table(a), posterior_table(a)});
 }
 
@@ -292,7 +293,7 @@ Section shortened(Section section, std::size_t rows) {
     if (table == nullptr || table->rows.size() <= rows) continue;
     const std::size_t more = table->rows.size() - rows + 1;
     table->rows.resize(rows - 1);
-    table->rows.push_back({say("{} more: --verbose", more)});
+    table->rows.push_back({say("{} more", more)});
   }
   return section;
 }

@@ -349,7 +349,7 @@ plot::Plot capture_plot(const CaptureComparison& comparison, const Dataset& data
 Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dataset) {
   std::vector<Sentence> words = {
       say("Older models, from {W_A} = {:.3g} {J/m2} and {K} = {:.4g} GPa; those of Dahneke and "
-          "Wall also take {e} = {:.3g} from the fit",
+          "Wall also use {e} = {:.3g} of the fit",
           comparison.adhesion_energy, comparison.stiffness / units::GPa, comparison.restitution)};
   if (comparison.yield) {
     words.push_back(say("yield pressure {:.3g} MPa ({})", comparison.yield->pressure / 1e6,

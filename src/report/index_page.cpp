@@ -163,10 +163,10 @@ Document index_document(const std::vector<IndexEntry>& entries) {
   page.heading = "Impact of microspheres with surfaces";
   page.foot = "recoil " + version();
   page.cards = true;
-  page.foreword = {Paragraph{entries.empty()
-                                 ? Sentence("There is no fit yet.")
-                                 : say("One card per fit: does the model hold, below which {V*} "
-                                       "do spheres stick, and the fitted parameters.")}};
+  page.foreword = {Paragraph{
+      entries.empty()
+          ? Sentence("There is no fit yet.")
+          : say("One card per fit: verdict, capture velocity {V*} and fitted parameters.")}};
   for (const IndexEntry& entry : entries) {
     const auto fit = contents_of<FitFile>(entry.page, entry.fit_json, "fit.json");
     add_banners(fit, page.foreword);

@@ -81,8 +81,8 @@ Sentence plane_words(const PairingResult& pairs) {
 
 Sentence later_words(const PairingResult& pairs) {
   if (!pairs.returns_usable) {
-    return "rebounds that come down again cannot be told from chance: second impacts, if there are "
-           "any, are counted as first ones";
+    return "rebounds that come down again cannot be distinguished from chance; second impacts, if "
+           "there are any, count as first ones";
   }
   const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
                                    [](const Impact& impact) { return impact.number > 1; });
@@ -141,8 +141,8 @@ Sentence threshold_words(const PassageTable& table, const PairingResult& pairs) 
         "from {:.4g} to {:.4g} {um}. ",
         first.restitution, kept.restitution, first.diameter / units::um, kept.diameter / units::um);
   }
-  return words + say("It acts on the incident velocity only, so above it nothing is selected by "
-                     "{e}; but slow first impacts, where adhesion shows, are left out.");
+  return words + say("It acts on the incident velocity only, so it does not select by {e}; but it "
+                     "leaves out slow first impacts, in which adhesion matters.");
 }
 
 Sentence angle_words(const PassageTable& table, const PairingResult& pairs) {
@@ -158,11 +158,10 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   std::vector<std::pair<Sentence, Cell>> entries = {
       {"passages", say("{} towards the surface, {} away from it", pairs.down, pairs.up)},
       {"measuring plane", plane_words(pairs)},
-      {"impacts",
-       say("{} pairs; {:.2f} % are true ones (estimate: {} of {} foreign passages found a partner, "
-           "and neighbours may have been exchanged)",
-           pairs.impacts.size(), 100.0 * pairs.purity(),
-           std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
+      {"impacts", say("{} pairs; {:.2f} % are correct (estimate: {} of {} foreign passages found a "
+                      "partner, and neighbours may have been exchanged)",
+                      pairs.impacts.size(), 100.0 * pairs.purity(),
+                      std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
       {"later", later_words(pairs)}};
   if (const Sentence words = threshold_words(table, pairs); !words.empty()) {
     entries.emplace_back("threshold", words);
@@ -173,10 +172,10 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   Section section{"impacts", "Impacts", {}, {items(entries)}};
   if (pairs.purity() < doubtful_purity) {
     section.blocks.push_back(Banner{
-        "warning", say("Only {:.1f} % of the pairs are true ones: the points are those of passages "
-                       "that have nothing to do with each other. The height of the measuring plane "
-                       "(--height) and the times are the first things to check.",
-                       100.0 * pairs.purity())});
+        "warning",
+        say("Only {:.1f} % of the pairs are correct: the points come from unrelated passages. "
+            "First check the height of the measuring plane (--height) and the times.",
+            100.0 * pairs.purity())});
   }
   return section;
 }
@@ -186,22 +185,21 @@ Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
   const std::string seen = pairs.options.lost_share
                                ? std::string("as stated")
                                : fmt::format(
-                                     "{} of {} rebounds were not seen on their way down, and the "
-                                     "way up is taken to be missed as often",
+                                     "{} of {} rebounds were not seen on their way down, and "
+                                     "rebounds on their way up are assumed to be missed as often",
                                      pairs.orphans, pairs.up);
   Table table;
   table.columns = {{"taken for"}, {"passages"}, {"because", "", true}};
-  table.rows = {
-      {"lost", Number{averages.lost, fixed(0)},
-       say("{:.1f} % of rebounds go unseen ({}); {} of them are proved by a later return",
-           100.0 * averages.lost_share, seen, averages.came_back)},
-      {"too slow", Number{averages.too_slow, fixed(0)},
-       say("below {:.4f} m/s at the surface a rebound does not climb to the plane; from the "
-           "scatter of {e} of those that do",
-           flight::slowest_return(pairs.height))},
-      {"captured", Number{static_cast<double>(averages.captured), fixed(0)}, {}},
-      {"not assigned", Number{averages.unresolved, fixed(0)},
-       "too few in their bins to be told from chance"}};
+  table.rows = {{"lost", Number{averages.lost, fixed(0)},
+                 say("{:.1f} % of rebounds are not detected ({}); a later return proves {} of them",
+                     100.0 * averages.lost_share, seen, averages.came_back)},
+                {"too slow", Number{averages.too_slow, fixed(0)},
+                 say("a rebound below {:.4f} m/s at the surface does not reach the plane; "
+                     "estimated from the scatter of {e} of the others",
+                     flight::slowest_return(pairs.height))},
+                {"captured", Number{static_cast<double>(averages.captured), fixed(0)}, {}},
+                {"not assigned", Number{averages.unresolved, fixed(0)},
+                 "too few in their bins to be distinguished from chance"}};
   return table;
 }
 
@@ -213,9 +211,9 @@ Section unpaired_section(const PairingResult& pairs, const Averages& averages) {
       Paragraph{say("Of the fastest quarter, {:.1f} % of {} have no rebound: if nothing is "
                     "captured there, this is the share that is lost (--lost-share).",
                     100.0 * averages.fast_unpaired, averages.fast_impacts)},
-      Paragraph{"A single passage does not say which: captured, too slow and lost look alike, and "
-                "only their numbers can be estimated. Where few rebounds are left in a bin, "
-                "captured includes too slow."}};
+      Paragraph{
+          "A single passage cannot be classified: captured, too slow and lost look alike, and only "
+          "their numbers are estimated. In bins with few rebounds, captured includes too slow."}};
   return section;
 }
 

@@ -58,13 +58,13 @@ Paragraph plan_answer(const ExperimentPlan& plan) {
   if (plan.reached) {
     return {text + say(", as wanted ({:.3g} %).", 100.0 * plan.options.error), true};
   }
-  text += say("; wanted were {:.3g} %. Hardest is ", 100.0 * plan.options.error) +
+  text += say("; the wanted error was {:.3g} %. The hardest is ", 100.0 * plan.options.error) +
           name_of_quantity(plan, *worst);
   text += worst->impacts
               ? say(": {:.0f} impacts in the same proportions.", std::ceil(*worst->impacts))
               : Sentence(
-                    ", for which no number of impacts would do: the constants of "
-                    "the materials are not known well enough.");
+                    ", which no number of impacts determines so well: the constants of the "
+                    "materials are too uncertain.");
   return {text, true};
 }
 
@@ -90,11 +90,10 @@ Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
   }
   entries.emplace_back("parameters", join(values, ", ") + Sentence("; " + assumed));
   entries.emplace_back("velocities", say("{:.4g} to {:.4g} m/s", options.slowest, options.fastest));
-  entries.emplace_back(
-      "one impact",
-      say("{e} scatters by {:.3g} % of itself and {:.3g} beside it; {V*} differs by {:.3g} % from "
-          "impact to impact",
-          100.0 * options.scatter, options.floor, 100.0 * options.spread));
+  entries.emplace_back("one impact",
+                       say("{e} scatters by {:.3g} % of {e} and by a constant {:.3g}; {V*} varies "
+                           "by {:.3g} % from impact to impact",
+                           100.0 * options.scatter, options.floor, 100.0 * options.spread));
   entries.emplace_back("one point", say("the mean of {} impacts", options.events));
   return items(entries);
 }
@@ -108,9 +107,8 @@ SizeUnit planned_unit(const ExperimentPlan& plan) {
 Table settings_table(const ExperimentPlan& plan) {
   Table table;
   table.caption =
-      say("What to measure: so many points of {} impacts each. Expected: the mean "
-          "{e} of the rebounds, its standard deviation over all points there, and the "
-          "share of spheres that stay",
+      say("Number of points of {} impacts each. Expected: mean {e} of the "
+          "rebounds, its standard deviation over all these points, and share of captured spheres",
           plan.options.events);
   table.columns = {{"dataset"},
                    {say("{d}"), planned_unit(plan).name},
@@ -142,9 +140,9 @@ Table settings_table(const ExperimentPlan& plan) {
 Table errors_table(const ExperimentPlan& plan) {
   Table table;
   table.caption =
-      say("Standard errors to be expected of this plan and of as many points evenly "
-          "spaced in ln {V} above capture, and the impacts that make each {:.3g} %: of "
-          "the plan, evenly spaced, and if nothing else were asked",
+      say("Expected standard errors of this plan and of as many points evenly spaced in ln {V} "
+          "above capture; impacts for {:.3g} %: with this plan, evenly spaced, and with a plan for "
+          "this quantity alone",
           100.0 * plan.options.error);
   table.columns = {{"quantity"},    {"assumed"}, {"unit"},           {"plan", "%"},
                    {"evenly", "%"}, {"impacts"}, {"impacts evenly"}, {"impacts alone"}};
@@ -160,7 +158,7 @@ Table errors_table(const ExperimentPlan& plan) {
 
 Table learnt_table(const ExperimentPlan& plan) {
   Table table;
-  table.caption = "Where each is learnt: the best experiment for one of them alone";
+  table.caption = "The best experiment for each quantity alone";
   table.columns = {{"quantity"}, {"impacts", "", true}};
   for (const PlannedQuantity& quantity : plan.quantities) {
     std::vector<Sentence> places;
@@ -192,20 +190,20 @@ List limits_of_plan(const ExperimentPlan& plan) {
 std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed) {
   Section answer{"plan", "Plan", {}, {plan_answer(plan)}};
   const Sentence efficiency =
-      say("the plan has at least {:.0f} % of the efficiency of the best one",
+      say("the plan has at least {:.0f} % of the efficiency of the optimal plan",
           std::floor(100.0 * plan.efficiency));
   answer.blocks.emplace_back(
       Paragraph{plan.options.checks > 0.0
-                    ? say("{:.0f} % of the points are spread evenly, so that a wrong model shows; ",
+                    ? say("{:.0f} % of the points are spread evenly to detect a wrong model; ",
                           100.0 * plan.options.checks) +
                           efficiency + Sentence(" without them.")
-                    : Sentence("No point is there to check the model (--checks 0); ") + efficiency +
-                          Sentence(".")});
+                    : Sentence("No points are reserved to check the model (--checks 0); ") +
+                          efficiency + Sentence(".")});
   return {std::move(answer),
           {"assumed", "Assumed", {}, {assumptions(plan, assumed)}},
-          {"settings", "What to Measure", {}, {settings_table(plan)}},
+          {"settings", "Points to measure", {}, {settings_table(plan)}},
           {"errors", "Errors", {}, {errors_table(plan), learnt_table(plan)}},
-          {"limits", "Limits of the Model", {}, {limits_of_plan(plan)}}};
+          {"limits", "Limits of the model", {}, {limits_of_plan(plan)}}};
 }
 
 }  // namespace

@@ -152,11 +152,11 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
   if (!misses.empty() && mixture.miss_single.rmse) {
     const auto best = std::min_element(misses.begin(), misses.end());
     words.push_back(
-        say("the points are closest to the average with {}: rms {} in {e}, for {d10} "
+        say("the points are closest to the average with {}: rms difference {} in {e}, for {d10} "
             "alone {}",
             best->second, digits(best->first, 2), digits(*mixture.miss_single.rmse, 2)));
   }
-  words.emplace_back("the fit used one diameter per point; nothing is fitted to the mixture");
+  words.emplace_back("the fit uses one diameter per point; the mixture is not fitted");
   return words;
 }
 
@@ -179,7 +179,7 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
              {"origin of sizes",
               Sentence(mixture.sizes.provenance.empty() ? "not stated" : mixture.sizes.provenance)},
              {"measuring plane",
-              say("{} mm above the surface: rebounds below {} m/s are not seen",
+              say("{} mm above the surface: rebounds below {} m/s are not detected",
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
   said.blocks.emplace_back(mixture_list(mixture));
   return {std::move(said),

@@ -134,7 +134,7 @@ FitFile::Intervals intervals_entry(const Analysis& a, std::size_t slot, const In
   }
   if (!out.posterior) {
     out.why.emplace_back("posterior", !posterior
-                                          ? "it was not asked for ([uncertainty] posterior = true)"
+                                          ? "it was not requested ([uncertainty] posterior = true)"
                                       : posterior->available() ? "the parameter is fixed"
                                                                : no_posterior_words(*posterior));
   }
@@ -253,7 +253,7 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
         !adheres        ? "without adhesion nothing is captured"
         : capture.above ? fmt::format("all impacts up to {:.4g} m/s were captured", *capture.above)
         : capture.below ? fmt::format("no impact from {:.4g} m/s on was captured", *capture.below)
-                        : "no velocity at which capture turns into rebound was found"};
+                        : "no velocity was found at which capture turns into rebound"};
     out.lower_limit = capture.above;
     out.upper_limit = capture.below;
     if (!adheres) {
@@ -326,7 +326,7 @@ FitFile::Noise noise_of(const FitResult& f) {
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
   out.setting_sd = {only_if(data.shares_settings(), noise.setting_sd),
-                    "the points of one setting are taken to share no error"};
+                    "the points of one setting are assumed to share no error"};
   out.setting_sd_estimated = data.setting_sd_estimated;
   out.residuals = noise.student ? "student" : "normal";
   out.student_dof = {noise.student ? std::optional(noise.student->dof) : std::nullopt,

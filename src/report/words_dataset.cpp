@@ -31,7 +31,7 @@ std::string pressure_words(double pressure) {
 
 std::string tabor_words(const Validity& v) {
   const char* const model = "the model has the equilibrium of JKR";
-  if (!v.passed()) return "adhesion acts inside the contact (JKR), as the model has it";
+  if (!v.passed()) return "adhesion acts inside the contact (JKR), as in the model";
   if (v.value < dmt_limit) return fmt::format("adhesion acts around the contact (DMT); {}", model);
   return fmt::format("between DMT, below 0.1, and JKR, above 5; {}", model);
 }
@@ -62,8 +62,8 @@ std::string release_words(const ReleaseCheck& check) {
 
 std::string air_sentence(const AirShare& air) {
   return fmt::format(
-      "the drag of the air ({:g} Pa, {:g} K) was taken out; it had lowered e by {:.2g} % at {:.3g} "
-      "m/s and by {:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
+      "the effect of air drag ({:g} Pa, {:g} K) was removed; it had lowered e by {:.2g} % at "
+      "{:.3g} m/s and by {:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
       air.pressure, air.temperature, 100.0 * air.slow_share, air.slow, 100.0 * air.fast_share,
       air.fast);
 }
@@ -97,9 +97,9 @@ std::string provenance_sentence(Provenance provenance) {
     case Provenance::measured:
       return "These points were measured.";
     case Provenance::digitised:
-      return "These points were read off a published figure, which adds an error of reading.";
+      return "These points were read off a published figure, which adds a reading error.";
     case Provenance::reconstruction:
-      return "Made by a recipe, not measured: it tests the method alone.";
+      return "Computed points, not measured: they test the method only.";
     case Provenance::synthetic:
       return "These points were simulated with known parameters to test the method.";
   }
@@ -145,7 +145,7 @@ std::string mixed_sizes_words(const MeasuredSizes& sizes) {
       mixed.spread,
       sizes.provenance == name_of(Provenance::reconstruction) ? ", a reconstruction" : "");
   if (mixed.slowest_seen > 0.0) {
-    words += fmt::format("; rebounds below {:.3g} m/s are not seen", mixed.slowest_seen);
+    words += fmt::format("; rebounds below {:.3g} m/s are not detected", mixed.slowest_seen);
   }
   return words;
 }
@@ -188,13 +188,13 @@ std::string validity_sentence(const Validity& v) {
   switch (v.quantity) {
     case ValidityQuantity::contact_radius:
       return fmt::format(
-          "the contact grows to {:.2g} of the sphere's radius ({}); Hertz' theory is good to about "
-          "{:g}",
+          "the contact grows to {:.2g} of the sphere's radius ({}); Hertz' theory holds up to "
+          "about {:g}",
           v.value, impact_words(v), v.limit);
     case ValidityQuantity::pressure_modulus:
       return fmt::format(
-          "the peak pressure is {:.2g} E* ({}); no solid bears more than about {:g} E*", v.value,
-          impact_words(v), v.limit);
+          "the peak pressure is {:.2g} E* ({}); no solid withstands more than about {:g} E*",
+          v.value, impact_words(v), v.limit);
     case ValidityQuantity::pressure_yield:
       return fmt::format(
           "the peak pressure is {:.2g} times the yield pressure of {}, {} ({}); above {:g} the "
@@ -325,11 +325,11 @@ std::string note_sentence(const ImportNote& note) {
                          note.count, note.count == 1 ? "" : "s");
     case ImportRemark::track_fall:
       return fmt::format(
-          "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is off, "
-          "or the air holds the ball; e does not depend on the scale, V does",
+          "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is "
+          "wrong, or air drag is large; e does not depend on the scale, V does",
           note.fall, note.gravity);
     case ImportRemark::drag_stays:
-      return "the drag of the air was not taken out of the tracks";
+      return "the effect of air drag on the tracks was not removed";
     case ImportRemark::shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";
@@ -343,8 +343,8 @@ std::string note_sentence(const ImportNote& note) {
     case ImportRemark::overrides_left_out:
       return left_out_sentence(note.left_out);
     case ImportRemark::adhesion_left_out:
-      return "adhesion is left out: it takes less than 1e-6 of the energy of every impact "
-             "(--adhesion-energy states it)";
+      return "adhesion is neglected: it takes less than 1e-6 of the energy of every impact "
+             "(--adhesion-energy sets it)";
   }
   return "";
 }
@@ -392,13 +392,13 @@ Sentence dependence_words(const RestitutionSummary& summary) {
   if (!effect.p_value) {
     std::string why = effect.why;
     why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
-    return say("{}: nothing about how {e} varies with {V} can be seen.", why);
+    return say("{}: the dependence of {e} on {V} is unknown.", why);
   }
   const std::string p = p_of_summary(*effect.p_value);
   const bool steady = *effect.p_value < shown_level;
   const bool bent = summary.bend.value_or(1.0) < shown_level;
   if (!steady && !bent) {
-    return say("No change of {e} with {V} is seen: {:.2g} {} per decade of {V} ({}).",
+    return say("No dependence of {e} on {V} is detected: {:.2g} {} per decade of {V} ({}).",
                *effect.value, ends_words(effect, 1.0), p);
   }
   const double sign = *effect.value < 0.0 ? -1.0 : 1.0;
@@ -449,11 +449,11 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
       return series_words(summary.means[summary.most_different[k]], summary, datasets);
     };
     if (*differ.p_value >= shown_level) {
-      sentences.push_back(say("No difference between the series is seen ({}).", p));
+      sentences.push_back(say("No difference between the series is detected ({}).", p));
     } else if (means.size() > most_series) {
-      sentences.push_back(say("The series differ ({}), by up to {:.2g}.", p, *differ.value));
+      sentences.push_back(say("The series differ in {e} ({}), by up to {:.2g}.", p, *differ.value));
     } else {
-      sentences.push_back(say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
+      sentences.push_back(say("The series differ in {e} ({}): {} and {} by {:.2g} {}.", p, name(0),
                               name(1), *differ.value, ends_words(differ, 1.0)));
     }
   }

@@ -48,7 +48,7 @@ std::string doing_words(const NextExperiment& experiment) {
 std::string because_words(const CandidateResult& c) {
   switch (c.set_aside.value_or(SetAside::not_possible)) {
     case SetAside::description:
-      return "a description explains nothing";
+      return "it is a description, not a cause";
     case SetAside::gains_too_little:
       return "it gains less than its parameters cost";
     case SetAside::chance:
@@ -58,21 +58,21 @@ std::string because_words(const CandidateResult& c) {
     case SetAside::not_possible:
       break;
     case SetAside::batch_is_size:
-      return "every series has its own diameter and the offsets vary smoothly with it: offsets of "
-             "batches cannot be told from an unknown law of size here";
+      return "every series has its own diameter and the offsets vary smoothly with it, so batch "
+             "offsets and an unknown effect of size look alike";
     case SetAside::within_a_step:
-      return "the readings lie on steps of a height, and rounding to a step passes for an error of "
-             "up to half of it";
+      return "the heights were rounded to a step, and rounding looks like an error of up to half a "
+             "step";
     case SetAside::leaves_structure:
-      return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
+      return fmt::format("structure remains in the residuals (p = {:.2g})", c.remaining_p);
     case SetAside::predicts_no_better:
       return "it predicts held-out sizes or targets no better than the base model";
     case SetAside::one_would_do:
-      return "one of the two does as well alone";
+      return "one of the two explains the misfit as well alone";
     case SetAside::one_hardly_takes_part:
       return fmt::format(
-          "it leaves structure behind (p = {:.2g}), and one of the two explains no more of the "
-          "misfit than an error in the law of the other could",
+          "structure remains in the residuals (p = {:.2g}), and one of the two explains no more of "
+          "the misfit than an error in the law of the other could",
           c.remaining_p);
     case SetAside::at_the_edge:
       return "a parameter lies at the limit of what is possible";
@@ -202,7 +202,7 @@ std::string short_set_aside_words(const CandidateResult& c) {
     case SetAside::not_possible:
       return "not possible";
     case SetAside::batch_is_size:
-      return "may be a law of size";
+      return "may be an effect of size";
     case SetAside::within_a_step:
       return "may be rounding";
     case SetAside::leaves_structure:
@@ -210,11 +210,11 @@ std::string short_set_aside_words(const CandidateResult& c) {
     case SetAside::predicts_no_better:
       return "predicts no better";
     case SetAside::one_would_do:
-      return "one would do";
+      return "one is enough";
     case SetAside::one_hardly_takes_part:
-      return "one hardly takes part";
+      return "one contributes too little";
     case SetAside::at_the_edge:
-      return "at the limit of the possible";
+      return "parameter at its limit";
     case SetAside::far_behind:
       return "far behind";
   }
@@ -225,11 +225,11 @@ std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {
   std::vector<std::string> warnings;
   if (simulations_failed(d.structure)) {
     warnings.push_back(fmt::format(
-        "{} of {} simulated data sets could not be fitted: the p-values rest on the others",
+        "{} of {} simulated data sets could not be fitted; the p-values follow from the others",
         d.structure.failed, d.structure.failed + d.structure.simulated));
   }
   if (!d.extended_failure.empty()) {
-    warnings.push_back("the extended model has no usable fit of its own: " + d.extended_failure);
+    warnings.push_back("the fit of the extended model failed: " + d.extended_failure);
   }
   return warnings;
 }
@@ -238,9 +238,8 @@ std::string where_words(const Diagnosis& d) {
   const MisfitCell* const worst = worst_cell(d);
   if (worst == nullptr) return "";
   return fmt::format(
-      "The model is furthest off for {} at {:.3g} to {:.3g} m/s, where e is too {} by {:.2g}, "
-      "{:.2g} "
-      "standard errors",
+      "The misfit is largest for {} at {:.3g} to {:.3g} m/s, where the e of the model is too {} by "
+      "{:.2g}, {:.2g} standard errors",
       diameter_words(worst->diameter), worst->slowest, worst->fastest,
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
       std::abs(worst->standardised));
@@ -250,7 +249,7 @@ namespace {
 
 std::string headline_of_several(const Diagnosis& d) {
   if (!d.shared_cause.empty()) {
-    return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
+    return fmt::format("Cause of the misfit: {}, by one of several laws ({})", d.shared_cause,
                        cause_words(d.rivals));
   }
   std::vector<std::string> doubtful = d.rivals;
@@ -258,14 +257,15 @@ std::string headline_of_several(const Diagnosis& d) {
     return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
   });
   if (!d.common.empty() && !doubtful.empty()) {
-    return fmt::format("What the model misses: {}, together with {}", cause_words(d.common),
+    return fmt::format("Cause of the misfit: {}, together with {}", cause_words(d.common),
                        cause_words(doubtful, " or "));
   }
   if (d.rivals.size() == 1) {
-    return fmt::format("The model misses something that could be {}, but these data cannot tell",
+    return fmt::format("The cause of the misfit may be {}, but these data cannot decide",
                        cause_words(d.rivals));
   }
-  return "The model misses something, and these data cannot tell what: " + cause_words(d.rivals);
+  return "The model does not describe these points, for one of several possible causes: " +
+         cause_words(d.rivals);
 }
 
 }  // namespace
@@ -275,11 +275,12 @@ std::string headline(const Diagnosis& d) {
     case Verdict::adequate:
       if (!tests_the_curve(d)) return "These points cannot test the model";
       return d.base.noise_verdict == NoiseVerdict::exceeded && d.spec.law_error > 0.0
-                 ? fmt::format("The model describes these points, if its laws may be wrong by {}",
-                               percent(d.spec.law_error))
+                 ? fmt::format(
+                       "The model describes these points if its laws are allowed an error of {}",
+                       percent(d.spec.law_error))
                  : "The model describes these points";
     case Verdict::cause_named:
-      return "What the model misses: " + cause_words(d.named);
+      return "Cause of the misfit: " + cause_words(d.named);
     case Verdict::not_separable:
       return headline_of_several(d);
     case Verdict::unexplained:
@@ -290,9 +291,9 @@ std::string headline(const Diagnosis& d) {
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
       return rival_errors(d).empty()
-                 ? "The model misses something that nothing in the catalogue explains"
-                 : "Either the errors are larger than stated, or the model misses something that "
-                   "nothing in the catalogue explains";
+                 ? "The model has a misfit that no cause in the catalogue explains"
+                 : "Either the errors are larger than stated, or the model has a misfit that no "
+                   "cause in the catalogue explains";
   }
   return "";
 }
@@ -327,15 +328,15 @@ std::string short_titles(const std::vector<std::string>& ids) {
 std::string gain_words(const Diagnosis& d) {
   if (!d.gain || d.gain->folds.empty()) return "";
   if (!d.gain->any_chosen()) {
-    return "Points that were held out say nothing of it: without them, the others are too few to "
-           "ask for more than the base model.";
+    return "Held-out points cannot test the extended model: without them, too few points are left "
+           "to require more than the base model.";
   }
   std::string text = fmt::format(
-      "Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
+      "The extended model predicts held-out points with an rms error of {:.3g} in e, the base "
+      "model with {:.3g}",
       d.gain->rmse_extended, d.gain->rmse_base);
   if (d.gain->relative < 0.0) {
-    text += fmt::format(" ({:.0f} % more: what holds elsewhere does not hold there)",
-                        -100.0 * d.gain->relative);
+    text += fmt::format(" ({:.0f} % more)", -100.0 * d.gain->relative);
   } else if (d.gain->lower && d.gain->upper) {
     text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
                         100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
@@ -356,11 +357,10 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
 std::string experiment_words(const Diagnosis& d) {
   if (d.experiments.empty()) {
     return has_one_size(d.base.data)
-               ? "Measure spheres of other diameters: how an effect depends on size tells one "
-                 "cause "
-                 "from another."
-               : "No further impacts of these spheres on this surface would tell them apart: "
-                 "measure another pair of materials, or with another instrument.";
+               ? "Measure spheres of other diameters: causes differ in how their effect depends on "
+                 "size."
+               : "More impacts of these spheres on this surface would not separate them: measure "
+                 "another pair of materials, or use another instrument.";
   }
   const NextExperiment& next = d.experiments.front();
   const std::string impacts =
@@ -370,9 +370,9 @@ std::string experiment_words(const Diagnosis& d) {
       "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
       next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
   if (next.kind == ExperimentKind::condition) {
-    return fmt::format("To find out, {} and measure {}: {}.", next.doing, impacts, apart);
+    return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, apart);
   }
-  return fmt::format("To find out, measure {}: {}.", impacts, apart);
+  return fmt::format("To decide, measure {}: {}.", impacts, apart);
 }
 
 std::string dominant_point_words(const Diagnosis& d) {
@@ -380,8 +380,8 @@ std::string dominant_point_words(const Diagnosis& d) {
   if (!worst) return "";
   const Observation& point = d.base.data.points[*worst];
   return fmt::format(
-      "Most of the misfit is one point, in line {}, of {} at {:.3g} m/s (e = {:.3g}): look at that "
-      "first.",
+      "Most of the misfit comes from one point, in line {}, of {} at {:.3g} m/s (e = {:.3g}): "
+      "check it first.",
       point.line, diameter_words(point.diameter), point.velocity, point.restitution);
 }
 
@@ -390,29 +390,29 @@ std::string errors_words(const UnstatedErrors& errors) {
   switch (errors.source) {
     case ErrorSource::shared_setting:
       return fmt::format(
-          "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
-          "leaves nothing systematic {}: repeating one setting does not average it out, and "
-          "setting_sd = {:.2g} under [noise] takes it into the fit",
+          "with an error of {:.2g} in e that all points of one setting share, no structure remains "
+          "{}; repeats of one setting do not average it out, and setting_sd = {:.2g} under [noise] "
+          "includes it in the fit",
           errors.value, p, errors.value);
     case ErrorSource::velocity_errors:
       return fmt::format(
-          "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} under [noise]) "
-          "leave nothing systematic {}",
+          "with an error of {:.2g} % in each velocity (velocity_relative_sd = {:.2g} under "
+          "[noise]), no structure remains {}",
           100.0 * errors.value, errors.value, p);
     case ErrorSource::height_readings:
       return fmt::format(
-          "heights read with an error of {:.2g} mm each, a step of {:.2g} mm, leave nothing "
-          "systematic {}: let restitution_sd contain it",
+          "with an error of {:.2g} mm in each height (a step of {:.2g} mm), no structure remains "
+          "{}; include it in restitution_sd",
           errors.value / units::mm, steps_of_sd * errors.value / units::mm, p);
     case ErrorSource::time_readings:
       return fmt::format(
-          "times read with an error of {:.2g} ms each, a step of {:.2g} ms, leave nothing "
-          "systematic {}: let restitution_sd contain it",
+          "with an error of {:.2g} ms in each time (a step of {:.2g} ms), no structure remains {}; "
+          "include it in restitution_sd",
           errors.value / units::ms, steps_of_sd * errors.value / units::ms, p);
     case ErrorSource::larger_deviations:
       break;
   }
-  return fmt::format("standard deviations {:.2g} times as large leave nothing systematic {}",
+  return fmt::format("with standard deviations {:.2g} times as large, no structure remains {}",
                      errors.value, p);
 }
 
@@ -426,8 +426,7 @@ std::string rival_errors_words(const Diagnosis& d) {
       "Unstated errors would explain the misfit {}: {}.",
       !d.extended ? "without any cause"
       : behind > d.options.margin
-          ? fmt::format("too, though less well (AICc larger by {:.0f} than with two causes)",
-                        behind)
+          ? fmt::format("less well (AICc larger by {:.0f} than with two causes)", behind)
           : "as well",
       fmt::join(words, "; "));
 }
@@ -454,27 +453,26 @@ std::string bound_words(const Diagnosis& d) {
   if (held.empty()) return "";
   const ParameterSlot& slot = d.base.model.slots[held.front()];
   return fmt::format(
-      "{} rests on its upper bound of {:.3g}{}: widen the bounds before reading anything into "
-      "the misfit.",
+      "{} is at its upper bound of {:.3g}{}: widen the bounds before you interpret the misfit.",
       slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
 }
 
 /// What these points cannot show.
 std::string untested_words(const Diagnosis& d) {
   if (!d.base.data.noise.known) {
-    return "The noise is neither stated nor to be seen, so that nothing can be tested.";
+    return "The noise is neither stated nor known from the points, so nothing can be tested.";
   }
   if (tests_the_curve(d)) return "";
-  if (evidence_for(d).rebounds == 0) return "No sphere rebounded: nothing about e can be seen.";
+  if (evidence_for(d).rebounds == 0) return "No sphere rebounded, so e is unknown.";
   std::set<std::pair<double, double>> places;
   for (const Observation& point : d.base.data.points) {
     places.insert({point.velocity, point.diameter});
   }
   return places.size() == 1
-             ? "One velocity: nothing about how e varies with V can be seen."
+             ? "One velocity: the dependence of e on V is unknown."
              : fmt::format(
-                   "{} pairs of velocity and size determine {} free parameters and test "
-                   "nothing else of the curve.",
+                   "{} pairs of velocity and size determine {} free parameters and cannot also "
+                   "test the curve.",
                    places.size(), evidence_for(d).free);
 }
 
@@ -487,8 +485,8 @@ std::string wrong_words(const Diagnosis& d) {
       return fmt::format("The points scatter about the curve no more than stated ({}).", p);
     }
     return fmt::format(
-        "Nothing systematic is left in the residuals of the fitted model ({}: the share of data "
-        "sets simulated with the model that look as systematic).",
+        "The residuals show no structure ({}: the share of data sets simulated with the model that "
+        "show as much).",
         p);
   }
   const std::string where = where_words(d);
@@ -501,30 +499,30 @@ std::string wrong_words(const Diagnosis& d) {
 /// What the headline does not say of several possible causes.
 std::string several_words(const Diagnosis& d) {
   if (has_one_size(d.base.data)) {
-    return "One diameter does not show how an effect depends on size, which is what tells one "
-           "cause from another.";
+    return "With one diameter, the effect of size is unknown, and causes differ mainly in their "
+           "effect of size.";
   }
-  if (!d.shared_cause.empty()) return "These data cannot tell which of its laws holds.";
+  if (!d.shared_cause.empty()) return "These data cannot decide which of its laws holds.";
   if (!d.alone.empty()) {
     return fmt::format(
-        "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
-        "is as likely, if its law is wrong by more than laws are taken to be.",
+        "With two causes together ({}) no structure remains, but one alone ({}) comes so close "
+        "that it is as likely if the error of its law is larger than assumed.",
         words_of(d.extended->candidate.name()), short_titles(d.alone));
   }
   if (d.extended->candidate.added.size() > 1) {
-    return d.common.empty() ? "It takes two causes at once, and these data cannot tell which."
-                            : "It takes two causes at once.";
+    return d.common.empty() ? "Two causes are needed together, and these data cannot decide which."
+                            : "Two causes are needed together.";
   }
-  return "It may be another cause, too.";
+  return "A cause that is not listed is possible, too.";
 }
 
 /// What has the shape of the misfit, and why it is not believed all the same.
 std::string resembling_words(const Diagnosis& d) {
   const CandidateResult* const first = single_named(d, d.resembles.front());
   const std::string shape =
-      fmt::format("The misfit looks like {}", titles_of(d.resembles, ", or like "));
+      fmt::format("The misfit resembles {}", titles_of(d.resembles, ", or like "));
   return first == nullptr
-             ? shape + ", which cannot be."
+             ? shape + ", which is not possible."
              : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
                            shape, because_words(*first));
 }
@@ -533,30 +531,30 @@ std::string resembling_words(const Diagnosis& d) {
 std::string unexplained_words(const Diagnosis& d) {
   if (!d.resembles.empty()) return resembling_words(d);
   if (series_differ(d)) {
-    return "Nothing in the catalogue tells the series apart: fit each by itself, or state what "
-           "differs between them as a condition.";
+    return "No cause in the catalogue explains the difference: fit each series separately, or "
+           "state the condition in which they differ.";
   }
   if (!d.outdone.empty()) {
     return fmt::format(
-        "It would be explained by {}, but as well by unstated errors, which assume less: no cause "
-        "is named.",
+        "A possible cause is {}, but unstated errors explain the misfit as well and assume less, "
+        "so no cause is named.",
         words_of(d.outdone));
   }
   if (!rival_errors(d).empty()) return rival_errors_words(d);
   if (dominant_point(d)) return dominant_point_words(d);
   if (const CandidateResult* const closest = closest_cause(d)) {
     return fmt::format(
-        "Nothing in the catalogue explains it; the closest is {}, which takes {:.0f} % of the "
-        "misfit and leaves more than noise ({}).",
+        "No cause in the catalogue explains it. The closest is {}, which explains {:.0f} % of the "
+        "misfit and leaves structure in the residuals ({}).",
         title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
         p_words(closest->remaining_p, quick_samples));
   }
   if (!tests_the_curve(d)) return "The points scatter more than their stated standard deviations.";
   if (!d.structure.smooth) {
-    return "Nothing in the catalogue explains it, and it has no shape in velocity and size: the "
+    return "No cause in the catalogue explains it, and it has no pattern in velocity and size: the "
            "points scatter more than their stated standard deviations.";
   }
-  return "Nothing in the catalogue explains it, alone or two at a time.";
+  return "No cause in the catalogue explains it, alone or in pairs.";
 }
 
 /// What to do where nothing is named.
@@ -564,17 +562,16 @@ std::string advice_words(const Diagnosis& d) {
   if (series_differ(d)) return "";   // it has been said
   if (dominant_point(d)) return "";  // it has been said
   if (!rival_errors(d).empty() || !d.structure.smooth) {
-    return "State the errors that the measurement has (restitution_sd, velocity_sd, setting), and "
-           "ask again.";
+    return "State the errors of the measurement (restitution_sd, velocity_sd, setting) and repeat "
+           "the diagnosis.";
   }
   if (d.free_form_p <= 0.01) {
-    return "Look at the rows themselves: a smooth function of velocity and size does not describe "
+    return "Check the rows themselves: a smooth function of velocity and size does not describe "
            "the misfit either.";
   }
-  return "A smooth function of velocity and size describes it: there is an effect that this "
-         "program does not know, a law that differs from the catalogue's, or something that acts "
-         "on "
-         "some of the points only.";
+  return "A smooth function of velocity and size describes it. It may come from an effect outside "
+         "the catalogue, from a law that differs from the catalogue's, or from an effect on some "
+         "of the points only.";
 }
 
 /// An adequate model that nothing could have shown wrong.
@@ -583,8 +580,8 @@ std::string evidence_words(const Diagnosis& d) {
   const Evidence evidence = evidence_for(d);
   if (!evidence.hardly_any()) return "";
   return fmt::format(
-      "With {} points that rebounded and {} free parameters hardly any misfit could have been "
-      "seen: this is no evidence for the model.",
+      "With {} rebounds and {} free parameters, hardly any misfit could be detected: this is no "
+      "evidence for the model.",
       evidence.rebounds, evidence.free);
 }
 
@@ -601,7 +598,7 @@ std::string materials_words(const Diagnosis& d) {
   }
   return fmt::format(
       "It does so within the errors of the material constants{}{}; with exact constants structure "
-      "would be left (p = {:.2g}).",
+      "would remain (p = {:.2g}).",
       moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
 }
 
@@ -609,10 +606,10 @@ std::string materials_words(const Diagnosis& d) {
 std::string if_exact_words(const Diagnosis& d) {
   if (!d.if_exact || d.if_exact->p_value > d.options.level) return "";
   const std::vector<std::string>& ids = d.if_exact->listed;
-  return fmt::format(
-      "Taken as exact, the model would leave structure ({}){}.",
-      p_words(d.if_exact->p_value, quick_samples),
-      ids.empty() ? ", like nothing in the catalogue" : ", most like " + cause_words(ids, " or "));
+  return fmt::format("If the laws were exact, structure would remain ({}){}.",
+                     p_words(d.if_exact->p_value, quick_samples),
+                     ids.empty() ? ", unlike any cause in the catalogue"
+                                 : ", most similar to " + cause_words(ids, " or "));
 }
 
 /// What these points could have shown: one sentence for each cause, one for none.
@@ -706,8 +703,8 @@ std::string method_words(const Diagnosis& d) {
   }
   if (!unknown || words.empty()) return "";
   return fmt::format(
-      "The dataset does not say how velocities were measured (recoil.method), which would decide "
-      "some of these: {}.",
+      "The dataset does not state how velocities were measured, which would exclude some causes: "
+      "{}.",
       fmt::join(words, ", "));
 }
 
@@ -722,8 +719,8 @@ std::string outlying_words(const Diagnosis& d) {
         diameter_words(point.diameter), point.velocity, point.restitution, point.residual));
   }
   return fmt::format(
-      "{} so far from what the others predict that {} set aside: {}. With {} the answer would be "
-      "{}.",
+      "{} so far from the prediction of the others that {} set aside: {}. With {} the verdict "
+      "would be {}.",
       rows.size() == 1 ? "One point lies" : fmt::format("{} points lie", rows.size()),
       rows.size() == 1 ? "it was" : "they were", fmt::join(rows, "; "),
       rows.size() == 1 ? "it" : "them", verdict_words(*d.for_all));
@@ -771,7 +768,7 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
     notes.insert(notes.end(), more.begin(), more.end());
   };
   if (d.extended) {
-    notes.push_back(fmt::format("The extended model takes {}: {}.",
+    notes.push_back(fmt::format("The extended model adds {}: {}.",
                                 words_of(d.extended->candidate.name()),
                                 parameters_words(*d.extended)));
     if (d.verdict != Verdict::cause_named) notes.push_back(gain_words(d));
@@ -780,7 +777,7 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
   if (!told) notes.push_back(rival_errors_words(d));
   const bool shown = d.verdict != Verdict::adequate && !where_words(d).empty();
   if (const std::string found = found_words(d); shown && !found.empty()) {
-    notes.push_back(fmt::format("What the residuals show: {}.", found));
+    notes.push_back(fmt::format("Structure in the residuals: {}.", found));
   }
   add(expected_words(d));
   if (d.verdict != Verdict::adequate) {

@@ -43,7 +43,7 @@ std::string range_words(const ExportRequest& request) {
 }
 
 std::string capture_lost(const ExportedImpact& impact) {
-  if (!impact.captures) return "The fit captures nothing at this size, and neither does this.";
+  if (!impact.captures) return "Neither the fit nor this export captures spheres of this size.";
   return fmt::format(
       "The capture velocity is LOST: in the fit a sphere slower than V* = {:.4g} m/s stays, here "
       "it bounces.",
@@ -83,14 +83,14 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
     out.push_back(
         impact.captures
             ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
-            : "The fit captures nothing at this size, and neither does this.");
+            : "Neither the fit nor this export captures spheres of this size.");
   } else if (job.form == ExportForm::refitted) {
     const RefittedForce& other = *job.refitted;
     out.push_back(fmt::format(
         "An approximation, as {}: the ring law with C_H = {:.5g} s/m, C_A = {:.5g} s/m and f0 = "
         "{:.5g} N/m, which at this size, and over {}, has the same e up to {:.4f} (rms over log "
         "V); the largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These "
-        "three are no parameters of the fit.",
+        "three are not parameters of the fit.",
         why_no_force(target, impact), other.force.hertz_damping, other.force.adhesion_damping,
         other.force.adhesion_force, range_words(impact.request), other.error.rms,
         other.error.largest, other.error.at, other.error.rebounding));
@@ -101,13 +101,12 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
             : capture_lost(impact));
   } else if (job.form == ExportForm::approximation) {
     const RestitutionError& error = job.stock->error;
+    out.push_back(fmt::format("An approximation, as {}: {}.",
+                              stock_asked ? "--stock was given" : why_no_force(target, impact),
+                              stock_words(*job.stock)));
     out.push_back(fmt::format(
-        "An approximation, as {}: {}.",
-        stock_asked ? "one of the program's own was asked for" : why_no_force(target, impact),
-        stock_words(*job.stock)));
-    out.push_back(fmt::format(
-        "Of all its values this has the smallest rms error of e over {}, evenly spaced in log V: "
-        "{:.4f}; the largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
+        "This value has the smallest rms error of e over {}, evenly spaced in log V: {:.4f}; the "
+        "largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
         range_words(impact.request), error.rms, error.largest, error.at, error.rebounding));
     out.push_back(capture_lost(impact));
   } else if (target != ExportTarget::table) {
@@ -125,11 +124,11 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
     } else {
       out.push_back(fmt::format("Captures are kept: V* = {:.4g} m/s.", job.lookup->scale.front()));
     }
-    out.push_back("Normal impact: what the tangential velocity does is not part of the model.");
+    out.push_back("The model covers normal impact only, without a tangential velocity.");
   }
   for (const Mechanism* mechanism : impact.of_measurement) {
     out.push_back(
-        fmt::format("{} is an error of the measurement and is left out.", mechanism->info.id));
+        fmt::format("{} is an error of the measurement and is not exported.", mechanism->info.id));
   }
   return out;
 }
@@ -145,8 +144,7 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
   wrap_into(lines, fmt::format("Parameters, {}:", source.parameters));
   for (const ExportedParameter& value : source.values) lines.push_back(parameter_words(value));
   if (std::isfinite(source.rmse)) {
-    wrap_into(lines,
-              fmt::format("Against these points its e is off by {:.2g} (rms).", source.rmse));
+    wrap_into(lines, fmt::format("Its e differs from these points by {:.2g} (rms).", source.rmse));
   }
   if (source.p_value) {
     wrap_into(lines, fmt::format("The points reject this model (p = {:.2g}). {}", *source.p_value,

@@ -107,7 +107,8 @@ std::string setting_words(const Observations& data, int free_count) {
   return data.noise.setting_sd > 0.0
              ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
                            data.noise.setting_sd, source)
-             : fmt::format("; no shared error of the points of one setting is seen ({})", source);
+             : fmt::format("; no shared error of the points of one setting is detected ({})",
+                           source);
 }
 
 // ---- warnings ----------------------------------------------------------------------------------
@@ -156,10 +157,11 @@ Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
   if (!data.setting_sd_estimated || spare_settings(data, fitted.model.free_count()) > 0) return {};
   const int settings = count_settings(data).settings;
-  return {fmt::format(
-      "the points of one setting may share an error, such as that of a drop height; {} setting{} "
-      "cannot show it, and the intervals leave it out: state setting_velocity_sd or setting_sd",
-      settings, settings == 1 ? "" : "s")};
+  return {
+      fmt::format("the points of one setting may share an error, such as that of a drop height; {} "
+                  "setting{} cannot determine it, and the intervals do not include it: state "
+                  "setting_velocity_sd or setting_sd",
+                  settings, settings == 1 ? "" : "s")};
 }
 
 /// A standard deviation computed from fewer impacts is off by a fifth or more: 1 / sqrt(2 (n - 1)).
@@ -168,10 +170,10 @@ constexpr int few_impacts = 15;
 /// Standard deviations that the fit did not use.
 Sentences data_warnings(const Observations& data) {
   if (data.sd_stated && data.sd_missing > 0) {
-    return {fmt::format(
-        "{} points state no restitution_sd: a single impact of theirs is taken to scatter like the "
-        "median of the others",
-        data.sd_missing)};
+    return {
+        fmt::format("{} points state no restitution_sd; their single impacts are assumed to "
+                    "scatter like the median of the others",
+                    data.sd_missing)};
   }
   const auto few = std::count_if(data.points.begin(), data.points.end(), [](const auto& point) {
     return point.rebounds() > 1 && point.rebounds() < few_impacts;
@@ -336,7 +338,7 @@ Sentence loss_words(const Analysis& a) {
   std::string text = fmt::format("Law of loss: {}", a.spec.loss);
   if (!others.empty()) text += fmt::format(" (AICc of the others: {})", fmt::join(others, ", "));
   if (!equals.empty()) {
-    text += fmt::format("; the points do not tell it from {}", fmt::join(equals, ", "));
+    text += fmt::format("; the points cannot distinguish it from {}", fmt::join(equals, ", "));
   }
   if (a.fitted.noise_verdict == NoiseVerdict::exceeded) {
     text += "; no law fits the points, so quote the mean e";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
@@ -45,7 +46,7 @@ std::string skew_words(const Disagreement& found) {
 Sentence undecided_words(const Sentence& what, double factor) {
   return say(
       "the error of {} changes by a factor of {:.1f} with the assumed growth of the scatter "
-      "towards capture, which the points do not decide: state standard deviations, or measure "
+      "towards capture, which the points do not determine: state standard deviations, or measure "
       "more points",
       what, factor);
 }
@@ -126,8 +127,9 @@ std::string hindrance_words(const ParameterIdentifiability& found, const Interva
     case Hindrance::large_error:
       return fmt::format("is known only to {:.0f} %", 100.0 * found.relative_error);
     case Hindrance::uncertain_error:
-      return fmt::format("has an error of {:.0f} %, or up to {:.0f} % as the noise is estimated",
-                         100.0 * found.relative_error, 100.0 * found.largest_relative_error);
+      return fmt::format(
+          "has an error of {:.0f} %, or up to {:.0f} % because the noise is estimated",
+          100.0 * found.relative_error, 100.0 * found.largest_relative_error);
     case Hindrance::undecided_noise:
     case Hindrance::wide_spread:
       break;  // sentences of their own
@@ -272,7 +274,7 @@ std::string missing_words(const Interval& interval) {
     case NoInterval::no_covariance:
       return "the fit has no standard errors";
     case NoInterval::all_captured:
-      return "every point says only that all or none of its impacts were captured";
+      return "every point states only that all or none of its impacts were captured";
     case NoInterval::noise_unknown:
       return "the noise is not known";
   }
@@ -300,8 +302,8 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           what, 100.0 * value);
     case Caution::model_rejected:
       return say(
-          "{} and its interval follow from a model that the data reject (p {}): the interval does "
-          "not include the error of the model",
+          "{} follows from a model that the data reject (p {}); its interval does not include the "
+          "error of the model",
           what, value < 1e-6 ? "< 1e-6" : fmt::format("= {:.2g}", value));
   }
   return {};
@@ -374,7 +376,7 @@ Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const Int
   if (found.skewed()) reasons.emplace_back(skew_words(found));
   if (found.few_points) {
     reasons.push_back(
-        say("{} degrees of freedom, for which Wald, profile and studentized intervals allow with a "
+        say("{} degrees of freedom, which widen Wald, profile and studentized intervals by a "
             "factor of {:.2f}",
             found.few_points->dof, found.few_points->factor));
   }
@@ -482,20 +484,26 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
   }
   const UncertaintyOptions& options = uncertainty.options;
   if (options.replicates_auto && boot.relative_error.value_or(0.0) > options.wanted_error) {
-    warnings.push_back(fmt::format(
-        "after {} replicates the end of an interval is uncertain by {:.1f} % of its width, more "
-        "than the {:.1f} % wanted",
-        boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
+    warnings.push_back(
+        fmt::format("after {} replicates the ends of an interval are uncertain by {:.1f} % of its "
+                    "width, more than the wanted {:.1f} %",
+                    boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
   }
+  std::vector<std::pair<Sentence, Sentences>> remarks;  // each once, with all its sizes
   for (const CaptureEstimate& capture : uncertainty.capture) {
+    if (capture.found && !capture.interval.note) continue;
+    const Sentence words = capture.found
+                               ? note_words(capture.interval, "the capture velocity")
+                               : "no capture velocity: " + missing_words(capture.interval);
+    auto same = std::find_if(remarks.begin(), remarks.end(),
+                             [&](const auto& remark) { return remark.first == words; });
+    if (same == remarks.end()) same = remarks.insert(same, {words, {}});
     const Sentence size = diameter_sentence(capture.diameter);
-    if (!capture.found) {
-      warnings.push_back(
-          say("no capture velocity at {d} = {}: {}", size, missing_words(capture.interval)));
-    } else if (capture.interval.note) {
-      warnings.push_back(
-          say("{d} = {}: {}", size, note_words(capture.interval, "the capture velocity")));
-    }
+    Sentences& sizes = same->second;
+    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+  }
+  for (const auto& [words, sizes] : remarks) {
+    warnings.push_back(say("{d} = {}: {}", join(sizes, ", "), words));
   }
   return warnings;
 }
@@ -504,7 +512,7 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
   if (posterior.available()) return {};
   switch (*posterior.missing) {
     case NoPosterior::no_start:
-      return "no posterior: the model mostly has no answer near the estimate";
+      return "no posterior: the model has no solution for most parameters near the estimate";
     case NoPosterior::not_settled:
       return fmt::format("no posterior: the chains have not converged after {} steps",
                          posterior.steps);
@@ -522,7 +530,7 @@ std::string no_leave_one_out_words(const PosteriorResult& posterior) {
     case NoLeaveOneOut::shared_errors:
       return "points share an error, and one of them alone has no likelihood";
     case NoLeaveOneOut::student:
-      return "the likelihood with Student's t is known but for a factor";
+      return "the likelihood with Student's t is known only up to a factor";
   }
   return {};
 }

@@ -282,7 +282,7 @@ TEST(Degenerate, AResultDoesNotReplaceWhatItIsMadeFrom) {
             "./fit.toml"}}) {
     const support::Outcome refused = place.run(words);
     EXPECT_EQ(refused.status, 2);
-    EXPECT_NE(refused.err.find("this file is read, and would be overwritten"), std::string::npos)
+    EXPECT_NE(refused.err.find("this input file would be overwritten"), std::string::npos)
         << refused.err;
     EXPECT_EQ(place.read("fit.toml"), before);
   }

@@ -77,7 +77,7 @@ TEST(Interrupt, KeepsFinishedReplicatesAndEndsAsTheSignalWould) {
   EXPECT_EQ(WTERMSIG(status), SIGINT);
   EXPECT_EQ(place.read("out.txt"), "");
   const std::string complaint = place.read("err.txt");
-  EXPECT_NE(complaint.find("the same command goes on from there"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("the same command continues"), std::string::npos) << complaint;
   const std::size_t kept = kept_replicates(place.path() / "out/unfinished-fit.json.jsonl");
   EXPECT_GT(kept, 10U);
   EXPECT_LT(kept, 1000000U);

@@ -77,7 +77,7 @@ void expect_no_trace(const LongCommand& command) {
   const Outcome first = stopped(place, to("broken"), kept, SIGTERM);
   ASSERT_EQ(first.status, 128 + SIGTERM) << first.err;
   EXPECT_EQ(first.out, "");
-  EXPECT_NE(first.err.find("the same command goes on from there"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("the same command continues"), std::string::npos) << first.err;
   ASSERT_TRUE(fs::exists(kept));
   const std::size_t rows = rows_in(kept);
   EXPECT_GT(rows, 0U);
@@ -139,7 +139,8 @@ TEST(Kept, TwoWithTheSameFolderAreOneTooMany) {
   const Outcome second = place.run({"fit", "fit.toml", "--out", "out"});
   EXPECT_EQ(second.status, 2);
   EXPECT_EQ(second.out, "");
-  EXPECT_EQ(second.err.find("out/fit.json: another recoil is at work on this result (process "), 0U)
+  EXPECT_EQ(
+      second.err.find("out/fit.json: another recoil process is writing this result (process "), 0U)
       << second.err;
   EXPECT_EQ(std::count(second.err.begin(), second.err.end(), '\n'), 1) << second.err;
   EXPECT_EQ(place.run({"fit", "fit.toml", "--out", "other"}).status, 0);

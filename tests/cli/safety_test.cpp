@@ -116,10 +116,10 @@ TEST(Safety, NothingIsWrittenBehindAPlantedLinkOrIntoWhatIsNoLock) {
   const Words fit = {"fit", "fit.toml", "--replicates", "0", "--out", "out"};
   fs::create_directory(place / "out");
   fs::create_symlink("../precious", place / "out/fit.json.lock");
-  expect_refusal(place.run(fit), "this is no lock of recoil");
+  expect_refusal(place.run(fit), "this is not a lock file of recoil");
   fs::remove(place / "out/fit.json.lock");
   fs::create_hard_link(place / "precious", place / "out/fit.json.lock");
-  expect_refusal(place.run(fit), "this is no lock of recoil");
+  expect_refusal(place.run(fit), "this is not a lock file of recoil");
   EXPECT_EQ(place.read("precious"), "precious");
   fs::remove(place / "out/fit.json.lock");
   EXPECT_EQ(place.run(fit).status, 0);
@@ -150,7 +150,7 @@ TEST(Safety, TwoCommandsNeverWorkOnOneResult) {
     place.write("out/" + mark + ".lock", "");
     const int other = open((place / "out" / (mark + ".lock")).c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(flock(other, LOCK_EX), 0);
-    expect_refusal(place.run(words), "another recoil is at work on this result");
+    expect_refusal(place.run(words), "another recoil process is writing this result");
     close(other);
     fs::remove_all(place / "out");
   }

@@ -118,8 +118,8 @@ TEST(Shards, AnAlteredPartIsRefusedAndOneCutShortIsMissing) {
       const Outcome refused = place.run({"merge", folder});
       EXPECT_EQ(refused.status, 2);
       EXPECT_EQ(refused.out, "");
-      EXPECT_NE(refused.err.find("its rows are not those that were written (they give another "
-                                 "SHA-256 than its first line names); remove it, and run shard "
+      EXPECT_NE(refused.err.find("its rows have been changed (their SHA-256 differs from that in "
+                                 "the first line); remove it, and run shard "
                                  "2/2 again\n"),
                 std::string::npos)
           << refused.err;
@@ -238,7 +238,7 @@ TEST(Shards, AShardThatRunsTwiceWritesTheSameBytesOrNone) {
   const std::string first = place.read("parts/" + name);
   const Outcome again = place.run(with(fit, {"--shard", "1/2", "--out", "parts"}));
   EXPECT_EQ(again.status, 0);
-  EXPECT_NE(again.out.find("there already"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("exists already"), std::string::npos) << again.out;
   fs::remove(place.path() / "parts" / name);
   run_shards(place, fit, {1}, 2, "parts");
   EXPECT_EQ(place.read("parts/" + name), first);

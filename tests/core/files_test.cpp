@@ -99,7 +99,7 @@ TEST_F(Files, AResultNeverTakesThePlaceOfItsInput) {
   for (const char* out : {"my.toml", "link"}) {
     const fs::path place = folder_ / out;
     const std::string told = place.string() +
-                             ": this file is read, and would be overwritten; choose another place "
+                             ": this input file would be overwritten; choose another place "
                              "for the result";
     EXPECT_EQ(support::message_of([&] { require_free({place}); }), told);
     EXPECT_EQ(support::message_of([&] { write_whole_file(place, "y"); }), told);
@@ -116,7 +116,7 @@ TEST_F(Files, DataStayUnlessTheyAreToBeReplaced) {
     write_whole_file(place, "new");
     EXPECT_NE(support::message_of([&] {
                 write_whole_file(place, "other");
-              }).find("there is data here already"),
+              }).find("existing data would be overwritten"),
               std::string::npos);
     EXPECT_EQ(folder_.read(name), "new");
     write_whole_file(place, "replaced", Replacing::data);
@@ -179,7 +179,7 @@ TEST_F(Files, APipeIsReadAndOneWithoutAWriterIsNotWaitedForLong) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const auto none =
       support::message_of([&] { read_text_file(pipe, 1000, std::chrono::milliseconds(50)); });
-  EXPECT_NE(none.find("nothing has come out of this for 0.05 s"), std::string::npos) << none;
+  EXPECT_NE(none.find("no data have arrived for 0.05 s"), std::string::npos) << none;
   std::thread writer([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     const int end = open(pipe.c_str(), O_WRONLY);

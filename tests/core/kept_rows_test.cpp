@@ -177,9 +177,9 @@ TEST(Claim, IsOneProcessAtATimeAndLeavesNothing) {
   {
     const Claim claim(result);
     const std::string told = told_elsewhere(result, folder);
-    EXPECT_NE(
-        told.find("another recoil is at work on this result (process " + std::to_string(getpid())),
-        std::string::npos)
+    EXPECT_NE(told.find("another recoil process is writing this result (process " +
+                        std::to_string(getpid())),
+              std::string::npos)
         << told;
     EXPECT_EQ(told_elsewhere(folder / "new/deep/other.json", folder), "no error");
   }
@@ -207,7 +207,8 @@ TEST(Claim, WhatIsNoLockAndWhatCannotBeMadeIsRefused) {
   std::filesystem::create_symlink("precious", folder / "link.lock");
   std::filesystem::create_directory(folder / "folder.lock");
   for (const char* name : {"text", "link"}) {
-    EXPECT_NE(told(name).find("this is no lock of recoil"), std::string::npos) << told(name);
+    EXPECT_NE(told(name).find("this is not a lock file of recoil"), std::string::npos)
+        << told(name);
   }
   EXPECT_NE(told("folder").find("the file cannot be written"), std::string::npos);
   EXPECT_NE(told("precious/below").find("the file cannot be written"), std::string::npos);

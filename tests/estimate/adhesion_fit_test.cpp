@@ -210,7 +210,7 @@ TEST(AdhesionKeys, TheParameterFollowsTheLaw) {
                     "\"bulk_viscoelastic\", \"plastic_yield\"]"),
             "");
   EXPECT_NE(refused("[model]\nadhesion = \"jkr\"\nmechanisms = [\"jkr_hysteresis\"]")
-                .find("it would count twice"),
+                .find("which would count twice"),
             std::string::npos);
   EXPECT_EQ(refused("[model]\nadhesion = \"maugis\"\nseparation = 3e-10"), "");
   EXPECT_NE(refused("[model]\nadhesion = \"jkr\"\nseparation = 3e-10").find("range of adhesion"),

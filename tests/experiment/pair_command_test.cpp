@@ -177,8 +177,8 @@ TEST(PairCommand, MistakesAreOneLineAndWriteNothing) {
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "set", "--provenance",
         "measured"},
        "set/datapackage.json: no such file"},
-      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40,20"}, "do not ascend"},
-      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40"}, "a class has two limits"},
+      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40,20"}, "not in ascending order"},
+      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40"}, "a size class needs two limits"},
       {{"pair", "e.csv", "--unit", kUnits, "--height", "-1"}, "--height"},
   };
   for (const auto& [arguments, expected] : cases) {

@@ -78,7 +78,7 @@ TEST(Export, ATableAnswersAsSimulateDoes) {
   const Outcome run = export_to(
       place, "table", {"--parameters", "fitted/fit.json", "--diameter", "3", "--velocity", "2,8"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.out.find("without bands"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("no bands"), std::string::npos) << run.out;
   const std::vector<Row> rows = rows_of(place.read("out/restitution.csv"));
   EXPECT_EQ(rows.front().velocity, 2.0);
   EXPECT_NEAR(rows.back().velocity, 8.0, 1e-8);

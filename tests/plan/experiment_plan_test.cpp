@@ -324,7 +324,7 @@ TEST(ExperimentPlan, ConstantsWithAnErrorLimitWhatCanBeKnown) {
   options.error = 0.02;
   const ExperimentPlan wanted = recoil::plan_experiment(spec, datasets, model.initial(), options);
   EXPECT_FALSE(wanted.reached);
-  EXPECT_FALSE(quantity(wanted, "f0").impacts) << "no number of impacts would do";
+  EXPECT_FALSE(quantity(wanted, "f0").impacts) << "no number of impacts determines so well";
   EXPECT_TRUE(quantity(wanted, "C_H").impacts);
   EXPECT_LT(capture(plan, 4.9e-6).error, 0.02);
 }

@@ -34,7 +34,7 @@ TEST(PlanCommand, ForAFolderWithoutPoints) {
   const Outcome plan = planned(place);
   ASSERT_EQ(plan.status, 0) << plan.err;
   EXPECT_EQ(plan.err, "");
-  for (const char* word : {"[[Plan]]", "[[What to Measure]]", "[[Errors]]", "C_H"}) {
+  for (const char* word : {"[[Plan]]", "[[Points to measure]]", "[[Errors]]", "C_H"}) {
     EXPECT_NE(plan.out.find(word), std::string::npos) << word << "\n" << plan.out;
   }
   std::istringstream lines(plan.out);
@@ -166,9 +166,9 @@ TEST(PlanCommand, MistakesAreSaidInOneLine) {
       {{"plan", "fit.toml", "--diameter", "2", "--error", "nan"}, "error"},
       {{"plan", "fit.toml", "--diameter", "2", "--impacts", "0"}, "--impacts"},
       {{"plan", "fit.toml", "--diameter", "2", "--impacts", "20"}, "2 parameters are free"},
-      {{"plan", "fit.toml", "--diameter", "2", "--W", "0.2"}, "--W is no parameter of this fit"},
-      {{"plan", "jkr.toml", "--diameter", "2", "--f0", "9"}, "--f0 is no parameter of this fit"},
-      {{"plan", "fit.toml", "--diameter", "2", "--C_H", "1e5"}, "outside of its bounds"},
+      {{"plan", "fit.toml", "--diameter", "2", "--W", "0.2"}, "--W is not a parameter of this fit"},
+      {{"plan", "jkr.toml", "--diameter", "2", "--f0", "9"}, "--f0 is not a parameter of this fit"},
+      {{"plan", "fit.toml", "--diameter", "2", "--C_H", "1e5"}, "outside its bounds"},
       {{"plan", "fixed.toml", "--diameter", "2"}, "no parameter is free"},
       {{"plan", "fit.toml", "--diameter", "2", "--parameters", "no.json"}, "no.json"},
       {{"plan", "fit.toml", "--diameter", "2", "--f0", "0"}, "--velocity MIN,MAX"},

@@ -99,7 +99,7 @@ def test_stdout_is_valid_json_and_nothing_else(inputs, command, name, words):
     assert not errors
     assert found["format_version"] == 2
     # what else there is to say goes to stderr: of these only one has something
-    assert ("note: no --height was given" in done.err) == ("sizes.csv" in words)
+    assert ("note: without --height" in done.err) == ("sizes.csv" in words)
     notes = [line for line in done.err.splitlines() if not line.endswith("s left")]  # progress
     assert len(notes) == ("sizes.csv" in words)
 

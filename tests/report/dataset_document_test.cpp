@@ -138,7 +138,7 @@ TEST(DatasetDocument, SaysHowWellConstantsAreKnownAndWhichSizesAreMixed) {
             "particle: Young's modulus 10 %; surface: Poisson's ratio 0.02");
   EXPECT_THAT(value_of(table, "sizes"),
               HasSubstr("every point averages over 1 to 3 um (mean 2 um"));
-  EXPECT_THAT(value_of(table, "sizes"), HasSubstr("rebounds below 0.14 m/s are not seen"));
+  EXPECT_THAT(value_of(table, "sizes"), HasSubstr("rebounds below 0.14 m/s are not detected"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Diagnosis answered(Verdict verdict, std::vector<std::string> rivals = {}) {
 TEST(Headline, SaysWhatIsNamed) {
   Diagnosis d = answered(Verdict::cause_named);
   d.named = {"plastic_yield", "gas_film"};
-  EXPECT_EQ(headline(d), "What the model misses: plastic yield, gas film");
+  EXPECT_EQ(headline(d), "Cause of the misfit: plastic yield, gas film");
   EXPECT_EQ(headline(answered(Verdict::adequate)), "The model describes these points");
 }
 
@@ -37,17 +37,17 @@ TEST(Headline, PraisesNoModelThatWasNotTested) {
 TEST(Headline, TellsTheCertainFromTheDoubtful) {
   Diagnosis d = answered(Verdict::not_separable, {"crack_rate", "plastic_yield", "capillary"});
   EXPECT_EQ(headline(d),
-            "The model misses something, and these data cannot tell what: crack rate, plastic "
-            "yield, capillary");
+            "The model does not describe these points, for one of several possible causes: crack "
+            "rate, plastic yield, capillary");
   EXPECT_EQ(headline(answered(Verdict::not_separable, {"height_origin"})),
-            "The model misses something that could be height origin, but these data cannot tell");
+            "The cause of the misfit may be height origin, but these data cannot decide");
   d.common = {"plastic_yield"};
   EXPECT_EQ(headline(d),
-            "What the model misses: plastic yield, together with crack rate or capillary");
+            "Cause of the misfit: plastic yield, together with crack rate or capillary");
   d.common.clear();
   d.shared_cause = "adhesion hysteresis";
   EXPECT_EQ(headline(d),
-            "What the model misses: adhesion hysteresis, by one of several laws (crack rate, "
+            "Cause of the misfit: adhesion hysteresis, by one of several laws (crack rate, "
             "plastic yield, capillary)");
 }
 
@@ -59,9 +59,9 @@ TEST(Headline, StaysShortWithManyRivals) {
 
 TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   Diagnosis d = answered(Verdict::unexplained);
-  EXPECT_EQ(headline(d), "The model misses something that nothing in the catalogue explains");
+  EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
   d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.001});
-  EXPECT_EQ(headline(d), "The model misses something that nothing in the catalogue explains");
+  EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
   d.unstated.push_back({ErrorSource::larger_deviations, 1.4, -20.0, 0.4});
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }

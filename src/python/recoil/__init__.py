@@ -1,5 +1,5 @@
-"""recoil: how well does a model of microsphere impact fit measured restitution, and how sure are
-its parameters?
+"""recoil fits a model of microsphere impact to measured restitution and states how uncertain the
+parameters are and what the model gets wrong.
 
     import recoil
     result = recoil.fit(V, e, d=4.9, particle="polystyrene", surface="silicon")
@@ -7,8 +7,8 @@ its parameters?
     result.parameters.C_H.value, result.parameters.C_H.intervals.bca
     result.plot()
 
-The functions are those of the command; results have the names of its JSON files and the same
-digits. ``recoil help python`` is the page of the manual.
+The functions do what the commands of ``recoil`` do. Results have the keys and the digits of the
+JSON files. ``recoil help python`` prints the page of the manual.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def _toml(value: Any) -> str:
 
 
 def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) -> _recoil.Inputs:
-    """A fit file as read, or one made of datasets and tables."""
+    """A fit file, or a fit made from datasets and tables."""
     given = {key: table for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
@@ -121,7 +121,7 @@ def load_dataset(folder: PathLike) -> Dataset:
 
 
 def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
-    """``source``; of a frame or of arrays, the dataset that they make with what is ``given``."""
+    """``source``, or the dataset that a frame or arrays make together with ``given``."""
     given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
     if hasattr(source, "to_csv"):
         frame: Any = source
@@ -193,15 +193,15 @@ def fit(
     ``d`` is then the diameter of all rows, and ``units`` as of ``Dataset.from_pandas``.
     ``provenance`` is ``"measured"`` unless given.
 
-    Else ``source`` is a fit file; or a dataset, a dataset's folder, or a list of them, with the tables of
-    a fit file as dictionaries: ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``,
+    Otherwise ``source`` is a fit file, or a dataset, its folder or a list of these, with the tables
+    of a fit file as dictionaries: ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``,
     ``model={"adhesion": "jkr"}``, ``noise``, ``uncertainty``, ``diagnosis``, and its ``name``.
     ``recoil help fit-file`` lists their keys.
-    ``replicates``: of the bootstrap, 0 none, ``"auto"`` as many as it takes; ``scheme``, ``seed``
-    (both the fit file's), ``threads`` (0: all cores; no digit depends on it), ``solver``
-    (``"fast"`` or ``"reference"``).
+    ``replicates``: number of bootstrap replicates, 0 for none, ``"auto"`` until the intervals are
+    precise enough; ``scheme`` and ``seed`` replace those of the fit file; ``threads`` (0: all
+    cores; no digit depends on it); ``solver`` (``"fast"`` or ``"reference"``).
 
-    The digits are those of the command with the same options. Other threads of Python run
+    The result has the digits of the command with the same options. Other Python threads can run
     meanwhile.
 
     Raises ``InputError`` for a mistake in a file or an option, ``ComputationError`` when there is
@@ -251,8 +251,8 @@ def coverage(
     seed: Optional[int] = None,
     threads: int = 0,
 ) -> Facts:
-    """How often the intervals contain a known truth, in ``datasets`` simulated data sets: the JSON
-    of ``recoil coverage --json``."""
+    """Measures how often the intervals contain a known truth in ``datasets`` simulated data sets.
+    Returns the JSON of ``recoil coverage --json``."""
     tables = {"parameters": parameters, "model": model, "uncertainty": uncertainty}
     within("datasets", datasets, 1, 1000000, whole=True)
     inputs = _inputs(source, tables, "fit")
@@ -261,7 +261,7 @@ def coverage(
 
 
 def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
-    """Fits of the same data side by side, results or files: ``recoil compare``.
+    """Compares fits of the same data (results or files): ``recoil compare``.
 
     Raises ``InputError`` when they are not of the same data, or a file is no fit.json.
     """
@@ -301,8 +301,8 @@ def pair(
     size_edges: Sequence[float] = (),
     mean_diameter: bool = False,
 ) -> Pairing:
-    """Finds the impacts in the passages that a phase Doppler instrument records, and makes points
-    of them: ``recoil pair``, with its options, their units and their defaults.
+    """Finds impacts in the passages that a phase Doppler instrument records, and averages them into
+    points: ``recoil pair``, with its options, units and defaults.
 
     ``passages``: a CSV file, one row per passage: ``time``, ``velocity``, ``diameter``, optional
     ``tangential_velocity`` and ``series``. ``units={"time": "s", "velocity": "m/s"}`` where no

@@ -1,4 +1,4 @@
-"""Datasets, and their way from and to pandas."""
+"""Datasets, and their conversion from and to pandas."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ _COUNTS = ("events", "captured")
 
 
 def _material(body: str, stated: Any) -> Any:
-    """A name as what the table of materials has under it."""
+    """The entry of the table of materials with this name."""
     return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else stated
 
 
 def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
-    """The object ``recoil`` of datapackage.json: what is given, and the rest of ``like``."""
+    """The object ``recoil`` of datapackage.json: the given values, and the others from ``like``."""
     own: dict[str, Any] = {} if like is None else dict(like._package["recoil"])
     for key, value in given.items():
         if value is not None:
@@ -54,7 +54,7 @@ def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
 
 
 def _series_of(diameters: Any, unit: str) -> list[str]:
-    """One series for each of up to 12 diameters; one for all where there are more."""
+    """One series for each diameter if there are at most 12, else one for all."""
     few = len(set(diameters)) <= 12
     try:
         return [f"{float(d):g} {unit}" if few else "points" for d in diameters]
@@ -65,8 +65,8 @@ def _series_of(diameters: Any, unit: str) -> list[str]:
 def _numbers(
     name: str, values: Any, points: Optional[int], *, empty: bool = False, whole: bool = False
 ) -> list[str]:
-    """One cell per point. ``points``: how many, None: as many as there are; ``empty``: NaN is a
-    missing value; ``whole``: counts."""
+    """One cell per point. ``points``: number of points, None: any; ``empty``: NaN is a missing
+    value; ``whole``: whole numbers."""
     import numpy as np
 
     try:
@@ -93,7 +93,7 @@ def _numbers(
 
 
 class Dataset:
-    """Points and materials: a dataset folder as read, or a frame of pandas.
+    """Points and materials, from a dataset folder or a pandas frame.
 
     ``Dataset(folder)`` reads and validates ``folder``, as ``recoil check`` does.
 
@@ -128,7 +128,7 @@ class Dataset:
         units: Optional[Mapping[str, str]] = None,
         **more: Any,
     ) -> "Dataset":
-        """A dataset of the rows of ``frame``.
+        """Makes a dataset from the rows of ``frame``.
 
         ``frame``: one row per point, columns as in points.csv: ``series``, ``diameter`` [um],
         ``incident_velocity`` [m/s], ``restitution`` [1] or ``rebound_velocity`` [m/s]; optional
@@ -181,7 +181,7 @@ class Dataset:
         name: str = "points",
         **more: Any,
     ) -> "Dataset":
-        """A dataset of arrays.
+        """Makes a dataset from arrays.
 
         ``V``: incident velocity [m/s]; ``e``: restitution [1], NaN where every sphere stays;
         ``d``: diameter [um]; ``e_sd``, ``V_sd``: their standard deviations; ``events`` and
@@ -272,18 +272,18 @@ class Dataset:
 
     @property
     def units(self) -> dict[str, str]:
-        """Of the columns that have one: ``{"diameter": "um", ...}``."""
+        """Units of the columns that have one: ``{"diameter": "um", ...}``."""
         fields = self._package["resources"][0]["schema"]["fields"]
         return {field["name"]: field["unit"] for field in fields if field.get("unit")}
 
     @property
     def id(self) -> str:
-        """The package's name."""
+        """Name of the package."""
         return self._data.id
 
     @property
     def title(self) -> str:
-        """For people."""
+        """Title to read."""
         return self._data.title
 
     @property
@@ -298,7 +298,7 @@ class Dataset:
 
     @property
     def sources(self) -> list[str]:
-        """One line each."""
+        """Warnings about the data, one line each."""
         return list(self._data.sources)
 
     @property
@@ -329,5 +329,5 @@ class Dataset:
 
 
 def _dataset_of(package: dict[str, Any], csv: str, folder: str) -> Dataset:
-    """The dataset of these texts, as a pickle keeps it."""
+    """Restores a dataset from the texts in a pickle."""
     return Dataset._of(_recoil.parse_dataset(json.dumps(package), csv, folder), package, csv)

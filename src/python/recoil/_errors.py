@@ -1,4 +1,4 @@
-"""What recoil raises, and what checks arguments."""
+"""Exceptions of recoil, and checks of arguments."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from typing import Any, NoReturn
 
 
 class InputError(ValueError):
-    """Something that you can put right: a file, a key, a value.
+    """An error that you can correct: in a file, a key or a value.
 
     ``str(error)`` is the line that the command prints, ``file:line:column: problem (why);
     suggestion``. The parts have attributes of their own.
     """
 
     file: str
-    """The file; empty where the mistake is in none."""
+    """The file; empty if the error is not in a file."""
     line: int
-    """From 1; 0 where no line is to blame."""
+    """The line, from 1; 0 if the error has no line."""
     column: int
-    """From 1; 0 where no column is to blame."""
+    """The column, from 1; 0 if the error has no column."""
     problem: str
-    """What is there."""
+    """The problem."""
     why: str
-    """Why that is a problem; may be empty."""
+    """Why this is a problem; may be empty."""
     suggestion: str
     """What to do; may be empty."""
 
@@ -50,8 +50,7 @@ class InputError(ValueError):
 
 
 class ComputationError(RuntimeError):
-    """A computation that ended without a usable answer; says which parameter or point stood in
-    the way."""
+    """A computation ended without a usable result; the message names the parameter or point."""
 
 
 def refuse(problem: str, suggestion: str) -> NoReturn:
@@ -60,14 +59,14 @@ def refuse(problem: str, suggestion: str) -> NoReturn:
 
 
 def refuse_to_replace(*files: Path) -> None:
-    """Refuses files that are there: data may be all that is left of an experiment."""
+    """Refuses to overwrite existing files."""
     for file in files:
         if file.exists():
             refuse(f"{file} is there", "name another place, or pass replace=True")
 
 
 def within(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
-    """Refuses what is no number from ``least`` to ``most``, or no whole one; None is none given."""
+    """Refuses all but a number (or whole number) from ``least`` to ``most``, or None."""
     if value is None:
         return
     try:
@@ -80,6 +79,6 @@ def within(name: str, value: Any, least: float, most: float, *, whole: bool = Fa
 
 
 def one_of(name: str, word: Any, known: tuple[str, ...]) -> None:
-    """Refuses a word that is not known; the empty one stands for none given."""
+    """Refuses an unknown word; the empty word means not given."""
     if word not in ("", *known):
         refuse(f"{name} is {word!r}", f"choose one of {', '.join(known)}")

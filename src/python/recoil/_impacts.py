@@ -24,20 +24,20 @@ class Impacts:
     diameter_um: Array
     """d [um]"""
     restitution: Array
-    """e = rebound over incident velocity [1]; 0 where the sphere is captured, NaN where an impact
-    has no answer."""
+    """e = rebound / incident velocity [1]; 0 if the sphere is captured, NaN if an impact has no
+    solution."""
     restitution_squared: Array
     """e^2 [1], continued below zero for a capture: 2 H / (m V^2), H the mechanical energy with
     which the sphere stays. Smooth across the capture velocity, so this is what to fit."""
     captured: npt.NDArray[np.bool_]
-    """Does the sphere stay?"""
+    """Is the sphere captured?"""
     slopes: Optional[dict[str, Array]]
     """d e^2 / d p by the name of p, [1 / unit of p]: each parameter of the model (C_H, C_A [s/m],
     f0 [N/m], ...), ``incident_velocity`` [s/m] and ``diameter_um`` [1/um], f0 following the
-    diameter as r^(1/3) (eq. 12). None unless asked for."""
+    diameter as r^(1/3) (eq. 12). None unless requested."""
 
     def gradient(self, name: str) -> Array:
-        """d e / d p = (d e^2 / d p) / (2 e) [1 / unit of p] of the parameter ``name``; 0 where the
+        """d e / d p = (d e^2 / d p) / (2 e) [1 / unit of p] of the parameter ``name``; 0 if the
         sphere is captured."""
         import numpy as np
 
@@ -56,8 +56,8 @@ class Model:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """The values by name, those of fit.json, units as there; constants of the materials that
-        are known with an error stand among them."""
+        """The values by name, with the units of fit.json, including material constants that have an
+        error."""
         return dict(zip(self._model.labels, self._model.values))
 
     def simulate(

@@ -1,4 +1,4 @@
-"""Results: the facts of the JSON files as attributes, and what can be done with them."""
+"""Results: the contents of the JSON files as attributes, and methods for further work."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ _COMPILED = ("_analysis", "_diagnosis", "_fitted", "_pictures")
 
 
 class _Result:
-    """What all results share: the names of their JSON are attributes."""
+    """Base of all results: the keys of their JSON are attributes."""
 
     _text = ""
     _json = ""
 
     @property
     def facts(self) -> Facts:
-        """All of the JSON."""
+        """The whole JSON."""
         found: Optional[Facts] = self.__dict__.get("_facts")
         if found is None:
             found = facts_of(self._json)
@@ -94,14 +94,14 @@ class _WithPictures(_Result):
 
 
 def _numbers(values: list[Optional[float]]) -> Array:
-    """As an array, NaN where there is no number."""
+    """An array, with NaN for missing numbers."""
     import numpy as np
 
     return np.array([math.nan if v is None else v for v in values], dtype=np.float64)
 
 
 class Parameter:
-    """A parameter of a fit under the names that lmfit has for its parts."""
+    """A parameter of a fit, with the attribute names of lmfit."""
 
     def __init__(self, name: str, facts: Facts, options: Facts) -> None:
         self.name = name
@@ -128,9 +128,9 @@ class Parameter:
 
 
 class FitResult(_WithPictures):
-    """A fit: the names of fit.json are attributes (``result.parameters.C_H.value``,
+    """A fit: the keys of fit.json are attributes (``result.parameters.C_H.value``,
     ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); ``recoil help
-    fit-json`` lists them. Names of lmfit's ModelResult come beside."""
+    fit-json`` lists them. The names of lmfit's ModelResult also work."""
 
     fit: Facts
     dataset: Facts
@@ -176,7 +176,7 @@ class FitResult(_WithPictures):
         return self._fitted.impact(V, d, dataset=dataset)
 
     def diagnose(self, *, seed: Optional[int] = None, threads: int = 0) -> "Diagnosis":
-        """What the model gets wrong and why: ``recoil diagnose``.
+        """Diagnoses what the model gets wrong and why: ``recoil diagnose``.
 
         ``seed``: of the simulated data sets (the fit file's); ``threads``: 0, all cores.
         """
@@ -193,7 +193,7 @@ class FitResult(_WithPictures):
         midpoints: bool = False,
         dataset: str = "",
     ) -> "Prediction":
-        """What a mixture of sizes does: ``recoil predict``.
+        """Predicts the mean restitution of a mixture of sizes: ``recoil predict``.
 
         ``sizes``: a CSV file with the columns diameter and count; ``unit`` of its diameters (what
         the datapackage.json beside it says, else um); ``height_mm``: of the measuring plane [mm].
@@ -203,7 +203,7 @@ class FitResult(_WithPictures):
         return Prediction(predicted)
 
     def report(self, verbose: bool = False) -> str:
-        """What ``recoil fit`` prints; ``verbose``: with ``--verbose``."""
+        """The text that ``recoil fit`` prints; ``verbose``: with ``--verbose``."""
         return self._analysis.text(True) if verbose else self._text
 
     def to_pandas(self) -> "pandas.DataFrame":
@@ -257,7 +257,7 @@ class FitResult(_WithPictures):
     def plot(
         self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = ""
     ) -> "Axes":
-        """Draws with matplotlib on ``ax``, or on a figure of its own; returns the axes.
+        """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
 
         ``what``: ``"fit"``, e against V with the points' errors and the band of the curve, one
         colour for each series; ``"residuals"``, weighted residuals against V; ``"profile"``, the
@@ -351,12 +351,12 @@ class FitResult(_WithPictures):
 
     @property
     def init_values(self) -> dict[str, float]:
-        """Where they started."""
+        """The initial values by name."""
         return {name: p.initial for name, p in self.options.parameters.items()}
 
     @property
     def covar(self) -> Array:
-        """Covariance of ``var_names``, NaN where there is none."""
+        """Covariance of ``var_names``, NaN if missing."""
         rows, names = self.facts.covariance, self.var_names
         return _numbers([rows[a][b] for a in names for b in names]).reshape(len(names), len(names))
 
@@ -372,7 +372,7 @@ class FitResult(_WithPictures):
 
     @property
     def redchi(self) -> float:
-        """``chisqr`` over ``nfree``; NaN without degrees of freedom."""
+        """``chisqr / nfree``; NaN without degrees of freedom."""
         return self.chisqr / self.nfree if self.nfree > 0 else float("nan")
 
     @property
