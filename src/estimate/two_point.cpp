@@ -1,6 +1,8 @@
 #include "estimate/two_point.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -69,6 +71,47 @@ class CalibratedSphere {
     return impact_groups(conditions_at(model_, theta_, dataset_, diameter_, point.velocity)).beta;
   }
 
+  /// The factors at which the model gives e of both points, by Newton in both from `theta`. Nullopt
+  /// where a step leaves the bounds, Newton does not end, or the iteration would leave this place.
+  std::optional<std::array<double, 2>> both_factors(const std::array<const Observation*, 2>& points,
+                                                    const std::array<double, 2>& beta,
+                                                    std::span<const double> theta) const {
+    constexpr int most_steps = 12;
+    const std::array<std::size_t, 2> slots = {model_.slot_C_H[dataset_], model_.slot_C_A[dataset_]};
+    std::array<double, 2> factors = {theta[slots[0]], theta[slots[1]]};
+    for (int step = 0; step < most_steps; ++step) {
+      std::array<ImpactGroups, 2> groups;
+      std::array<ImpactResult, 2> results;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double V = points[i]->velocity;
+        groups[i] = {factors[0] * V, beta[i], factors[1] * V};
+      }
+      model_.simulator()(groups, model_.impact_options(true), results);
+      Eigen::Matrix2d slopes;
+      Eigen::Vector2d excess;
+      for (int i = 0; i < 2; ++i) {
+        const ImpactResult& result = results[static_cast<std::size_t>(i)];
+        const Observation& point = *points[static_cast<std::size_t>(i)];
+        if (!result.usable()) return std::nullopt;
+        excess(i) = result.restitution_squared - point.restitution * point.restitution;
+        slopes.row(i) << point.velocity * result.gradient[0], point.velocity * result.gradient[2];
+      }
+      const Eigen::Vector2d by = -slopes.inverse() * excess;
+      bool rests = true;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double change = by(static_cast<Eigen::Index>(k));
+        factors[k] += change;
+        if (!(factors[k] > 0.0 && factors[k] < model_.slots[slots[k]].upper)) return std::nullopt;
+        rests = rests && std::abs(change) <= root_tolerance * factors[k];
+      }
+      // The iteration ends where each factor follows the other by less than it moved.
+      const bool draws =
+          std::abs(slopes(0, 1) * slopes(1, 0)) < std::abs(slopes(0, 0) * slopes(1, 1));
+      if (rests) return draws ? std::optional(factors) : std::nullopt;
+    }
+    return std::nullopt;
+  }
+
   /// e^2 of the model minus that of `point`, and its slope in C_H (`group` 0) or C_A (2).
   Excess excess(const Observation& point, double beta, double C_H, double C_A, int group) const {
     const double V = point.velocity;
@@ -89,7 +132,7 @@ class CalibratedSphere {
 
 /// Runs the iteration on the two points that `result` names; fills status, theta and iterations.
 void iterate(const ImpactModel& model, const Observations& data, std::size_t dataset,
-             TwoPointResult& result) {
+             std::span<const double> near, TwoPointResult& result) {
   const Observation& low = data.points[result.low_point];
   const Observation& high = data.points[result.high_point];
   const CalibratedSphere sphere(model, dataset, result.diameter);
@@ -104,8 +147,16 @@ void iterate(const ImpactModel& model, const Observations& data, std::size_t dat
     damping = found;
     return change > at_rest * found;
   };
-  result.status = TwoPointStatus::not_converging;
-  for (result.iterations = 1;; ++result.iterations) {
+  std::optional<std::array<double, 2>> found;
+  if (!near.empty()) found = sphere.both_factors({&high, &low}, {beta_high, beta_low}, near);
+  if (found) {
+    result.status = TwoPointStatus::converged;
+    C_H = found->front();
+    C_A = found->back();
+  } else {
+    result.status = TwoPointStatus::not_converging;
+  }
+  for (result.iterations = 1; !found; ++result.iterations) {
     const std::optional<double> hertz = find_damping(
         [&](double damping) { return sphere.excess(high, beta_high, damping, C_A, 0); }, C_H,
         upper_C_H);
@@ -155,10 +206,10 @@ bool choose_points(const Observations& data, std::size_t dataset, double diamete
 }  // namespace
 
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
-                         double diameter) {
+                         double diameter, std::span<const double> near) {
   TwoPointResult result;
   result.theta = without_mechanisms(model, model.initial());
-  if (choose_points(data, dataset, diameter, result)) iterate(model, data, dataset, result);
+  if (choose_points(data, dataset, diameter, result)) iterate(model, data, dataset, near, result);
   return result;
 }
 

@@ -233,6 +233,8 @@ class Renewal {
     for (int i = 0; i < most_parabolas; ++i) {
       const double more = at(place + width);
       const double less = at(place - width);
+      // On the least spread, which a wider one does not better.
+      if (place < std::log(least_spread) + width && more > lowest_value) return place;
       const double bend = (more - 2.0 * lowest_value + less) / (width * width);
       const double step = -(more - less) / (2.0 * width) / bend;
       const double next = place + step;

@@ -180,7 +180,8 @@ void bootstrap_two_points(const FitResult& fitted, const UncertaintyOptions& opt
     Observations& sample = samples.local();
     resample(plan, options.seed, i, sample);
     for (std::size_t d = 0; d < datasets; ++d) {
-      TwoPointResult run = two_point(fitted.model, sample, d, comparisons[d].result.diameter);
+      const TwoPointResult& original = comparisons[d].result;
+      TwoPointResult run = two_point(fitted.model, sample, d, original.diameter, original.theta);
       found[i].push_back(run.status == TwoPointStatus::converged ? std::move(run.theta)
                                                                  : std::vector<double>{});
     }
