@@ -67,7 +67,7 @@ Table structure_table(const Diagnosis& d) {
 Table misfit_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
-  table.caption = say("Mean misfit, {e} - {e}_model: positive where the model is too low");
+  table.caption = say("Mean {e} of the points minus {e} of the model");
   table.columns = {{say("{d}"), sizes.name}, {"dataset", "", true}, {say("{V}"), "m/s"}, {"points"},
                    {say("in {e}")},          {"energy", "J"},       {"standard errors"}};
   for (const MisfitCell& cell : d.where) {

@@ -141,6 +141,13 @@ Sentence odd_point_words(const Analysis& a) {
       point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
 }
 
+/// "C_H", or "V*(4.9 um)" with the unit as people write it.
+Sentence quantity_words(const std::string& name) {
+  const auto um = name.find("um)");
+  if (um == std::string::npos) return symbol(name);
+  return say("{V*}") + name.substr(2, um - 2) + unit("um") + name.substr(um + 2);
+}
+
 /// "In 200 simulated data sets like this one the 95 % interval of C_H contained the truth in 94 %,
 /// that of V*(4.9 um) in 93 %."
 /// @param below shares that are told
@@ -152,7 +159,7 @@ Sentence own_design_words(const Analysis& a, double below) {
     if (!(row.share() < below)) continue;
     parts.push_back(
         say(parts.empty() ? "interval of {} contained the truth in {}" : "that of {} in {}",
-            symbol(row.quantity), percent(row.share())));
+            quantity_words(row.quantity), percent(row.share())));
   }
   if (parts.empty()) return {};
   return say("In {} simulated data sets like this one the {} {}.", datasets,

@@ -489,8 +489,14 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
                     "width, more than the wanted {:.1f} %",
                     boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
   }
+  Sentences all_sizes;
   std::vector<std::pair<Sentence, Sentences>> remarks;  // each once, with all its sizes
+  const auto add_once = [](const Sentence& size, Sentences& sizes) {
+    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+  };
   for (const CaptureEstimate& capture : uncertainty.capture) {
+    const Sentence size = diameter_sentence(capture.diameter);
+    add_once(size, all_sizes);
     if (capture.found && !capture.interval.note) continue;
     const Sentence words = capture.found
                                ? note_words(capture.interval, "the capture velocity")
@@ -498,12 +504,12 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
     auto same = std::find_if(remarks.begin(), remarks.end(),
                              [&](const auto& remark) { return remark.first == words; });
     if (same == remarks.end()) same = remarks.insert(same, {words, {}});
-    const Sentence size = diameter_sentence(capture.diameter);
-    Sentences& sizes = same->second;
-    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+    add_once(size, same->second);
   }
   for (const auto& [words, sizes] : remarks) {
-    warnings.push_back(say("{d} = {}: {}", join(sizes, ", "), words));
+    const bool every = sizes.size() > 1 && sizes.size() == all_sizes.size();
+    warnings.push_back(every ? say("all sizes: {}", words)
+                             : say("{d} = {}: {}", join(sizes, ", "), words));
   }
   return warnings;
 }

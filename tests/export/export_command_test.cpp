@@ -182,7 +182,7 @@ TEST(Export, SaysWhichSizeItTookWhereItHoldsOneOnly) {
     const Outcome run = export_to(place, target, {"--parameters", "fitted/fit.json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const bool said =
-        run.out.find("no --diameter was given; 4 um is the middle one") != std::string::npos;
+        run.out.find("without --diameter, 4 um is used, the middle one") != std::string::npos;
     EXPECT_EQ(said, one) << target << "\n" << run.out;
   }
 }
