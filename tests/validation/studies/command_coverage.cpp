@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "validation/studies/commands.hpp"
+#include "validation/studies/coverage_noise.hpp"
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/coverage_study.hpp"
 #include "validation/studies/study_pages.hpp"
@@ -77,6 +78,13 @@ void study_designs(const CoverageRun& options) {
   publish(options.run, study_json(study), coverage_page(study, ""));
 }
 
+void study_noise_designs(const CoverageRun& options) {
+  CoverageStudy study =
+      study_noise(options.designs, coverage_options(options, FitSpec{}), options.run.keep);
+  study.stamp = options.run.stamp();
+  publish(options.run, study_json(study), coverage_page(study, ""));
+}
+
 CLI::App* add_command(CLI::App& program, const char* name, const char* what,
                       const std::shared_ptr<CoverageRun>& options) {
   CLI::App* command = program.add_subcommand(name, what);
@@ -122,6 +130,19 @@ void add_coverage_designs(CLI::App& program, const std::string& words) {
   command->add_flag("--exact-materials", options->exact_materials,
                     "take the constants of the materials as exact, as materials = false does");
   command->callback([options] { study_designs(*options); });
+}
+
+void add_coverage_noise(CLI::App& program, const std::string& words) {
+  const auto options = std::make_shared<CoverageRun>();
+  options->run.command = words;
+  CLI::App* command = add_command(program, "coverage-noise",
+                                  "the same for noise that is hard to know: shared, of single "
+                                  "impacts, stated from few events, of two targets",
+                                  options);
+  command
+      ->add_option("--designs", options->designs, "only the designs whose name has all these words")
+      ->delimiter(',');
+  command->callback([options] { study_noise_designs(*options); });
 }
 
 void add_coverage_summary(CLI::App& program) {
