@@ -106,13 +106,19 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   };
   if (!result.data.sd_stated) known_by(result.dof);
   if (noise.event_spread > 0.0) {
-    // The spread of the impacts is known by those that lie where some of them stick.
+    // The spread of the impacts is known by those that lie where some of them stick, and by single
+    // ones as far as their variance comes from it (Satterthwaite 1946, Biometrics Bull. 2, 110).
     const std::vector<bool> among = among_captures(result.data.points);
-    int impacts = 0;
+    double impacts = 0.0;
     for (std::size_t i = 0; i < among.size(); ++i) {
-      impacts += among[i] ? result.data.points[i].events : 0;
+      const Observation& point = result.data.points[i];
+      if (point.events > 1 || point.censored) {
+        impacts += among[i] ? point.events : 0;
+      } else if (point.weights.scatter > 0.0) {
+        impacts += std::pow(1.0 - std::pow(point.weights.sd / point.weights.mean_sd, 2), 2);
+      }
     }
-    known_by(impacts - 1);
+    known_by(std::max(1, static_cast<int>(impacts) - 1));
   }
   if (result.data.setting_sd_estimated) {
     known_by(spare_settings(result.data, result.model.free_count()));

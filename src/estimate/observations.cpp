@@ -164,6 +164,7 @@ std::vector<bool> among_captures(const std::vector<Observation>& points) {
   struct Overlap {
     double slowest_rebound = INFINITY;
     double fastest_capture = 0.0;
+    bool single = true;  // impacts, each a row
   };
   std::map<std::pair<std::size_t, double>, Overlap> ranges;
   for (const Observation& point : points) {
@@ -174,9 +175,16 @@ std::vector<bool> among_captures(const std::vector<Observation>& points) {
   for (const Observation& point : points) {
     const auto range = ranges.find({point.dataset, point.diameter});
     if (range == ranges.end()) continue;
-    auto& [slowest_rebound, fastest_capture] = range->second;
+    auto& [slowest_rebound, fastest_capture, single] = range->second;
+    single = single && point.events == 1;
     if (point.captured < point.events) slowest_rebound = std::min(slowest_rebound, point.velocity);
     if (point.captured > 0) fastest_capture = std::max(fastest_capture, point.velocity);
+  }
+  for (auto& [size, range] : ranges) {
+    if (range.single && std::isfinite(range.slowest_rebound) &&
+        range.slowest_rebound > range.fastest_capture) {
+      std::swap(range.slowest_rebound, range.fastest_capture);
+    }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto range = ranges.find({points[i].dataset, points[i].diameter});

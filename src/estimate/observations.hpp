@@ -84,7 +84,9 @@ struct Observations {
 
 /// Which points lie where spheres of their dataset and diameter both rebound and stick: between the
 /// slowest point with a rebound and the fastest with a capture, these included. Impacts differ
-/// there, whether a row holds one of them or many.
+/// there, whether a row holds one of them or many. Of a size whose rows are single impacts, the
+/// gap between its captures and its rebounds, where there is one: how much impacts differ then
+/// shows in the scatter of e beside it.
 std::vector<bool> among_captures(const std::vector<Observation>& points);
 
 /// Flattens the datasets. Where the standard deviations are not stated (or not to be used) the

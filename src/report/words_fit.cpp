@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "estimate/reweighting.hpp"
 #include "estimate/shared_settings.hpp"
@@ -155,7 +156,19 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
 /// Shared errors that the points cannot show.
 Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
-  if (!data.setting_sd_estimated || spare_settings(data, fitted.model.free_count()) > 0) return {};
+  if (!data.setting_sd_estimated) return {};
+  if (spare_settings(data, fitted.model.free_count()) > 0) {
+    std::map<std::size_t, double> velocity;  // of a setting
+    for (const Observation& point : data.points) {
+      if (velocity.try_emplace(point.setting, point.velocity).first->second != point.velocity) {
+        return {};
+      }
+    }
+    return {
+        "the points of every setting have one velocity: if they share an error of this velocity, "
+        "such as that of a drop height, and not of e, the intervals are too narrow near capture: "
+        "state setting_velocity_sd"};
+  }
   const int settings = count_settings(data).settings;
   return {
       fmt::format("the points of one setting may share an error, such as that of a drop height; {} "

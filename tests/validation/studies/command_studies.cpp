@@ -20,6 +20,7 @@
 #include "validation/recipe/passages.hpp"
 #include "validation/recipe/reconstruction.hpp"
 #include "validation/studies/commands.hpp"
+#include "validation/studies/coverage_noise.hpp"
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/coverage_study.hpp"
 #include "validation/studies/hidden_effects_page.hpp"
@@ -89,6 +90,13 @@ void study_designs(const CoverageRun& options) {
     add_design(study, specs[k], datasets[k], coverage_options(options, specs[k]), options.run.keep);
   }
   if (wrote_part(options.run)) return;
+  study.stamp = options.run.stamp();
+  publish(options.run, study_json(study), coverage_page(study, ""));
+}
+
+void study_noise_designs(const CoverageRun& options) {
+  CoverageStudy study =
+      study_noise(options.designs, coverage_options(options, FitSpec{}), options.run.keep);
   study.stamp = options.run.stamp();
   publish(options.run, study_json(study), coverage_page(study, ""));
 }
@@ -258,6 +266,19 @@ void add_coverage_designs(CLI::App& program, const std::string& words) {
   command->add_flag("--exact-materials", options->exact_materials,
                     "take the constants of the materials as exact, as materials = false does");
   command->callback([options] { study_designs(*options); });
+}
+
+void add_coverage_noise(CLI::App& program, const std::string& words) {
+  const auto options = std::make_shared<CoverageRun>();
+  options->run.command = words;
+  CLI::App* command = add_command(program, "coverage-noise",
+                                  "the same for noise that is hard to know: shared, of single "
+                                  "impacts, stated from few events, of two targets",
+                                  options);
+  command
+      ->add_option("--designs", options->designs, "only the designs whose name has all these words")
+      ->delimiter(',');
+  command->callback([options] { study_noise_designs(*options); });
 }
 
 void add_coverage_summary(CLI::App& program) {

@@ -38,6 +38,7 @@ void publish(const StudyRun& run, const std::string& json, const Document& page)
 /// Each adds one command. `words` is the command line without places and threads.
 void add_coverage_grid(CLI::App& program, const std::string& words);
 void add_coverage_designs(CLI::App& program, const std::string& words);
+void add_coverage_noise(CLI::App& program, const std::string& words);
 void add_coverage_summary(CLI::App& program);
 void add_hidden_effects(CLI::App& program, const std::string& words);
 void add_pairing(CLI::App& program, const std::string& words);

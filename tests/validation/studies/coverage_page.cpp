@@ -281,9 +281,10 @@ const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& r
 
 Document coverage_page(const CoverageStudy& study, const std::string& picture) {
   Document page;
-  page.heading = !study.grid_of
-                     ? Sentence("Coverage for the designs of the fits") + with_materials(study)
-                     : Sentence("Coverage by kind of data: ") + code(*study.grid_of);
+  page.heading = study.grid_of ? Sentence("Coverage by kind of data: ") + code(*study.grid_of)
+                 : study.sources.empty()
+                     ? Sentence("Coverage for noise that is hard to know")
+                     : Sentence("Coverage for the designs of the fits") + with_materials(study);
   page.foreword.emplace_back(Paragraph{study_words(study)});
   page.foreword.emplace_back(
       Paragraph{as_sentence(tally_words(tally_of(study.rows))) + " " + meaning_of_nominal()});
@@ -322,8 +323,10 @@ Document coverage_summary(const std::vector<CoverageStudy>& studies, const std::
       grids.push_back(&study);
       continue;
     }
-    Section section{study.exact_materials ? "designs-exact" : "designs",
-                    Sentence("The shipped designs") + with_materials(study)};
+    Section section{study.stamp.study.substr(std::string("coverage-").size()),
+                    study.sources.empty()
+                        ? Sentence("Noise that is hard to know")
+                        : Sentence("The shipped designs") + with_materials(study)};
     section.blocks = {Paragraph{say("{} data sets each (", study.datasets) +
                                 link("how they were made", study.stamp.study + ".md") +
                                 say("); {}.", tally_words(tally_of(study.rows)))},

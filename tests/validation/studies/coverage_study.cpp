@@ -21,9 +21,8 @@ std::optional<double> ratio(int part, int whole) {
 }
 
 /// The result kept under `key`, or `measure` and keep it.
-template <class Measure>
 CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::string& key,
-                                const Measure& measure) {
+                                const std::function<CoverageResult()>& measure) {
   if (folder.empty()) return measure();
   const std::filesystem::path file = folder / (sha256_hex(key).substr(0, 16) + ".json");
   if (std::filesystem::exists(file)) {
@@ -136,39 +135,44 @@ CoverageStudy read_coverage_study(const std::filesystem::path& file) {
   return study;
 }
 
+void add_measured(CoverageStudy& study, const std::string& design, const CoverageOptions& options,
+                  const std::filesystem::path& kept, const std::string& key,
+                  const std::function<CoverageResult()>& measure) {
+  set_options(study, options);
+  add_result(study, design, kept_or_measured(kept, key, measure));
+}
+
 CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
                            const std::vector<GridDesign>& designs, const CoverageOptions& options,
                            const std::filesystem::path& kept) {
   CoverageStudy study;
-  set_options(study, options);
   study.grid_of = spec.id;
   study.exact_materials = true;  // see `grid_spec`
   add_source(study, base);
   for (const GridDesign& design : designs) {
     const std::string key =
         fmt::format("{} {} {}", design.name(), key_of(spec, options), base.sha256);
-    add_result(study, design.name(), kept_or_measured(kept, key, [&] {
-                 const FitSpec own = grid_spec(spec, design);
-                 return measure_coverage(
-                     own, grid_truth(own, base, design, options.uncertainty.seed), options);
-               }));
+    add_measured(study, design.name(), options, kept, key, [&] {
+      const FitSpec own = grid_spec(spec, design);
+      return measure_coverage(own, grid_truth(own, base, design, options.uncertainty.seed),
+                              options);
+    });
   }
   return study;
 }
 
 void add_design(CoverageStudy& study, const FitSpec& spec, const std::vector<Dataset>& datasets,
                 const CoverageOptions& options, const std::filesystem::path& kept) {
-  set_options(study, options);
   study.exact_materials = spec.uncertainty.materials == Materials::exact;
   std::string key = key_of(spec, options);
   for (const Dataset& dataset : datasets) {
     key += " " + dataset.sha256;
     add_source(study, dataset);
   }
-  add_result(study, spec.id, kept_or_measured(kept, key, [&] {
-               return measure_coverage(
-                   spec, independent_truth(spec, datasets, options.uncertainty.seed), options);
-             }));
+  add_measured(study, spec.id, options, kept, key, [&] {
+    return measure_coverage(spec, independent_truth(spec, datasets, options.uncertainty.seed),
+                            options);
+  });
 }
 
 }  // namespace recoil

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -114,6 +115,11 @@ CoverageStudy read_coverage_study(const std::filesystem::path& file);
 CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
                            const std::vector<GridDesign>& designs, const CoverageOptions& options,
                            const std::filesystem::path& kept);
+
+/// Adds to `study` what `measure` finds of a design, or what is kept of it in `kept` under `key`.
+void add_measured(CoverageStudy& study, const std::string& design, const CoverageOptions& options,
+                  const std::filesystem::path& kept, const std::string& key,
+                  const std::function<CoverageResult()>& measure);
 
 /// The design of one fit, with which a study of several begins or goes on; kept as those of a grid.
 void add_design(CoverageStudy& study, const FitSpec& spec, const std::vector<Dataset>& datasets,

@@ -40,6 +40,7 @@ int run_study_program(const std::vector<std::string>& words) {
   add_render(program);
   add_coverage_designs(program, plain);
   add_coverage_grid(program, plain);
+  add_coverage_noise(program, plain);
   add_coverage_summary(program);
   add_hidden_effects(program, plain);
   add_pairing(program, plain);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "data/dataset.hpp"
 #include "document/document.hpp"
 #include "plot/plot.hpp"
 #include "validation/studies/study_stamp.hpp"
@@ -20,6 +21,9 @@ struct NamesOf<RankArm> {
 };
 inline constexpr std::array rank_arms = {RankArm::stated_noise, RankArm::estimated_noise,
                                          RankArm::captures, RankArm::uncertain_constants};
+
+/// Ammonium fluorescein on molybdenum (Li, Dunn & Brach 1999, Table 1), without points.
+Dataset fluorescein_on_molybdenum();
 
 /// Draws of the posterior that one rank is taken among, evenly spaced among all.
 inline constexpr int rank_draws = 99;

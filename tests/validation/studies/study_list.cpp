@@ -57,6 +57,8 @@ const std::vector<Study>& all_studies() {
       grid_study("n10-estimated", "n10,estimated", 200),
       grid_study("n20-estimated", "n20,estimated", 200),
       grid_study("n60-estimated", "n60,estimated", 200),
+      {"coverage-noise", "coverage-noise --datasets 200 --replicates 39",
+       "reports/coverage-noise.json"},
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
        "--impossible 2 --seed 20261123",
