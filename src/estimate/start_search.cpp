@@ -12,8 +12,8 @@
 namespace recoil {
 namespace {
 
-// More points than this are searched by a part of them, about half as many: the starts need a rough
-// answer each, and all points only the last steps.
+// More points than this are searched by a part of them, half as many or fewer: the starts need a
+// rough answer each, and all points only the last steps.
 constexpr std::size_t many_points = 500;
 constexpr std::size_t searched_of_many = 250;
 

@@ -173,6 +173,33 @@ TEST(Fit, WidensTheErrorsWhereTheModelMisses) {
   EXPECT_GT(result.noise_scale, 3.0);
 }
 
+TEST(Predict, AnswersThatAreKeptAreThoseOfAnEvaluation) {
+  const synthetic::Design design;
+  const Dataset dataset = synthetic::dataset(design);
+  const ImpactModel model = make_model(synthetic::spec(), {dataset});
+  const std::vector<PointConditions> points = gather({dataset}).conditions();
+  PointPredictor kept(model, points);
+  std::vector<double> other = model.initial();
+  other[model.slot_C_A[0]] *= 1.5;
+  // The first theta, another, the first again, the last twice; the gradient last.
+  for (const auto& [theta, gradient] :
+       {std::pair(model.initial(), true), std::pair(other, false), std::pair(model.initial(), true),
+        std::pair(other, false), std::pair(other, true), std::pair(other, true)}) {
+    PointPredictor fresh(model, points);
+    fresh.evaluate(theta, gradient);
+    kept.evaluate_blocks(theta, gradient, [](std::size_t, std::span<const ImpactResult>) {});
+    std::vector<double> row(theta.size());
+    std::vector<double> expected(theta.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(kept.at(i).restitution_squared, fresh.at(i).restitution_squared) << i;
+      if (!gradient) continue;
+      kept.gradient_row(i, 1.0, row);
+      fresh.gradient_row(i, 1.0, expected);
+      EXPECT_EQ(row, expected) << i;
+    }
+  }
+}
+
 TEST(Predict, GradientInEveryParameterMatchesDifferences) {
   const std::vector<Dataset> datasets = {synthetic::dataset(Design{})};
   for (const Solver solver : {Solver::fast, Solver::reference}) {
