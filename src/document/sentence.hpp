@@ -103,7 +103,7 @@ Sentence as_sentence(Sentence words);
 
 Sentence join(const std::vector<Sentence>& parts, const Sentence& between);
 
-/// An identifier such as "jkr_hysteresis" in words: "JKR hysteresis".
+/// An identifier such as "jkr_loss" in words: "JKR loss".
 std::string words_of(std::string identifier);
 
 }  // namespace recoil
