@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
+#include "analysis/analysis.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/json.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case_files.hpp"
 
@@ -15,46 +15,14 @@ namespace hidden {
 namespace {
 
 namespace fs = std::filesystem;
-using recoil::Json;
+using recoil::FitResult;
 
-/// A fit of the built command with some mechanisms.
-struct PlainFit {
-  double aicc = std::numeric_limits<double>::infinity();
-  std::vector<double> predicted, residuals;            ///< e, and weighted [points]
-  std::vector<double> sd, log_velocity, log_diameter;  ///< [points]
-};
-
-PlainFit plain_fit(const fs::path& fit, const std::vector<std::string>& mechanisms,
-                   const fs::path& binary) {
-  std::string ids;
-  for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
-  std::string text = recoil::read_text_file(fit);
-  const std::string model = "[model]\n";
-  text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
-  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
-  recoil::write_whole_file(changed, text);
-  const fs::path out = fit.parent_path() / "out";
-  const ProgramRun run = run_program({binary.string(), "fit", changed.string(), "--replicates", "0",
-                                      "--threads", "1", "--out", out.string()});
-  PlainFit found;
-  if (run.status != 0) return found;
-  std::ifstream in(out / "fit.json");
-  const Json answer = Json::parse(in);
-  double k = 0.0;
-  for (const auto& [name, parameter] : answer.at("parameters").items()) {
-    if (parameter.at("free").get<bool>()) k += 1.0;
-  }
-  for (const Json& point : answer.at("residuals")) {
-    found.predicted.push_back(point.at("predicted"));
-    found.residuals.push_back(point.at("weighted_residual"));
-    found.sd.push_back(point.at("sd_used"));
-    found.log_velocity.push_back(std::log(point.at("incident_velocity").get<double>()));
-    found.log_diameter.push_back(std::log(point.at("diameter_um").get<double>()));
-  }
-  const auto n = static_cast<double>(found.residuals.size());
-  found.aicc = answer.at("goodness").at("chi2").get<double>() + 2.0 * k +
-               2.0 * k * (k + 1.0) / (n - k - 1.0);
-  return found;
+/// Infinite where there is no fit.
+double aicc(const FitResult& fitted) {
+  if (!fitted.usable) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(fitted.residuals.size());
+  const double k = fitted.model.free_count();
+  return fitted.chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
 /// Of numbers about their means; 0 where one does not vary.
@@ -97,7 +65,24 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
   return best;
 }
 
-BaselineAnswers baseline_answers(const Case& made, const fs::path& binary) {
+FitResult fit_with(const fs::path& fit, const std::vector<std::string>& mechanisms) {
+  std::string ids;
+  for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
+  std::string text = recoil::read_text_file(fit);
+  const std::string model = "[model]\n";
+  text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
+  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
+  recoil::write_whole_file(changed, text);
+  try {
+    const recoil::FitInputs inputs = recoil::load_inputs(changed);
+    return recoil::fit(recoil::make_model(inputs.spec, inputs.datasets),
+                       recoil::gather(inputs.datasets, inputs.spec));
+  } catch (const recoil::InputError&) {  // a mechanism that these data cannot have
+    return {};
+  }
+}
+
+BaselineAnswers baseline_answers(const Case& made) {
   const ScratchFolder scratch;
   const fs::path fit = write_case(made, scratch.path());
   std::vector<std::string> catalogue;
@@ -106,12 +91,17 @@ BaselineAnswers baseline_answers(const Case& made, const fs::path& binary) {
       catalogue.emplace_back(effect.id);
     }
   }
-  const PlainFit base = plain_fit(fit, {}, binary);
+  const FitResult base = fit_with(fit, {});
   BaselineAnswers answers;
-  if (base.residuals.empty()) return answers;
+  if (!base.usable) return answers;
+  std::vector<double> log_velocity, log_diameter;
+  for (const recoil::Observation& point : base.data.points) {
+    log_velocity.push_back(std::log(point.velocity));
+    log_diameter.push_back(std::log(point.diameter));
+  }
   const std::vector<double> discrepancy =
-      discrepancy_mean(base.log_velocity, base.log_diameter, base.residuals);
-  double least = base.aicc;
+      discrepancy_mean(log_velocity, log_diameter, base.residuals);
+  double least = aicc(base);
   for (std::size_t round = 0; round < 2 && answers.stepwise.size() == round; ++round) {
     double largest = 0.0;
     std::string added;
@@ -119,15 +109,16 @@ BaselineAnswers baseline_answers(const Case& made, const fs::path& binary) {
       std::vector<std::string> mechanisms = answers.stepwise;
       if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) continue;
       mechanisms.push_back(id);
-      const PlainFit with = plain_fit(fit, mechanisms, binary);
-      if (with.aicc < least) {
-        least = with.aicc;
+      const FitResult with = fit_with(fit, mechanisms);
+      if (aicc(with) < least) {
+        least = aicc(with);
         added = id;
       }
-      if (round > 0 || discrepancy.empty() || with.predicted.empty()) continue;
+      if (round > 0 || discrepancy.empty() || !with.usable) continue;
       std::vector<double> effect;
-      for (std::size_t i = 0; i < with.predicted.size(); ++i) {
-        effect.push_back((with.predicted[i] - base.predicted[i]) / base.sd[i]);
+      for (std::size_t i = 0; i < with.prediction.size(); ++i) {
+        effect.push_back((with.prediction[i] - base.prediction[i]) /
+                         base.data.points[i].weights.sd);
       }
       const double alike = std::abs(correlation(effect, discrepancy));
       if (alike > largest) {
