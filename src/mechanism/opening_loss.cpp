@@ -93,10 +93,10 @@ struct Phase {
   }
 
   /// The energy lost on the whole way.
-  template <int steps>
-  Sloped loss() const {
+  template <class N, int steps>
+  N loss() const {
     const auto& nodes = nodes_of<steps>();
-    return integrate_loss<Sloped, steps>(
+    return integrate_loss<N, steps>(
         [&](int k, double lost) { return rate(nodes[static_cast<std::size_t>(k)], lost); },
         [&](int k, double lost) {
           Sloped sloped;
@@ -117,11 +117,11 @@ Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
     change = (potential(deepest, g.beta) - 0.5) / potential_by_place(deepest, g.beta);
   }
   for (int step = 0;; ++step) {
-    const Sloped lost = Phase{g, 1.0, damps_both, deepest}.loss<in_steps>();
+    const Sloped lost = Phase{g, 1.0, damps_both, deepest}.loss<Sloped, in_steps>();
     const double by_place = potential_by_place(deepest, g.beta) + lost.slope[by_deepest];
     const double change = (potential(deepest, g.beta) + lost.value - 0.5) / by_place;
     deepest = std::max(deepest - change, 0.1 * deepest);
-    if (std::abs(change) > 1e-8 * deepest && step < 8) continue;
+    if (std::abs(change) > 1e-6 * deepest && step < 8) continue;  // which squares the error
     Sloped found = (-1.0 / by_place) * lost;
     found.value = deepest;
     found.slope[1] -= potential_by_beta(deepest) / by_place;
@@ -131,29 +131,36 @@ Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
 }
 
 /// u^2 at x = 0 on the way out.
-Sloped square_out(const OpeningGroups& g, const Sloped& deepest, bool opens,
-                  const Sloped& elsewhere) {
-  const Sloped lost = Phase{g, -1.0, true, deepest.value, opens, elsewhere}.loss<out_steps>();
-  Sloped square = -2.0 * lost;
-  square.value += 2.0 * potential(deepest.value, g.beta);
-  square.slope[1] += 2.0 * potential_by_beta(deepest.value);
-  const double by_place =
-      square.slope[by_deepest] + 2.0 * potential_by_place(deepest.value, g.beta);
-  square.slope[by_deepest] = 0.0;
-  add_slopes(square, by_place, deepest);
+template <class N>
+N square_out(const OpeningGroups& g, const N& deepest, bool opens, const N& elsewhere) {
+  const double X = value_of(deepest);
+  const Phase phase{g, -1.0, true, X, opens, Sloped(elsewhere)};
+  N square = 2.0 * (potential(X, g.beta) - phase.loss<N, out_steps>());
+  if constexpr (std::is_same_v<N, Sloped>) {
+    square.slope[1] += 2.0 * potential_by_beta(X);
+    const double by_place = square.slope[by_deepest] + 2.0 * potential_by_place(X, g.beta);
+    square.slope[by_deepest] = 0.0;
+    add_slopes(square, by_place, deepest);
+  }
   return square;
 }
 
 }  // namespace
 
-OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both) {
+OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both, bool slopes) {
+  if (!slopes && groups.strength == 0.0) return {};
   const Sloped deepest = deepest_point(groups, damps_both);
-  Sloped elsewhere = 0.5 * (square_out(groups, deepest, false, {}) - groups.returned);
-  elsewhere.slope[by_returned] = -0.5;
-  const Sloped taken =
-      square_out(groups, deepest, false, elsewhere) - square_out(groups, deepest, true, elsewhere);
-  OpeningLoss loss{taken.value, {}};
-  std::copy_n(taken.slope.begin(), OpeningGroups::count, loss.slopes.begin());
+  const auto taken = [&]<class N>(const N& at, const N& by_square) {
+    const N plain = square_out(groups, at, false, N(0.0));
+    const N elsewhere = 0.5 * (plain - groups.returned) + by_square;
+    return N(square_out(groups, at, false, elsewhere) - square_out(groups, at, true, elsewhere));
+  };
+  if (!slopes) return {taken(deepest.value, 0.0), {}};
+  Sloped by_square(0.0);
+  by_square.slope[by_returned] = -0.5;
+  const Sloped all = taken(deepest, by_square);
+  OpeningLoss loss{all.value, {}};
+  std::copy_n(all.slope.begin(), OpeningGroups::count, loss.slopes.begin());
   return loss;
 }
 

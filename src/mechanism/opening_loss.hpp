@@ -30,7 +30,8 @@ struct OpeningLoss {
 /// `returned`, is spread evenly over the way out. Solved by Radau IIA (order 5) from the deepest
 /// point; e^2 has an error below 2e-5 for crack factors of 0.05 to 2 (against DOP853).
 /// @param damps_both whether gamma acts on the way in, too
-OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both);
+/// @param slopes whether the slopes are wanted; they are zero otherwise
+OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both, bool slopes = true);
 
 /// The energy [J] that the opening of a contact under the ring law takes, at a work of separation
 /// of w v_c^k [J/m2] beyond that of the base model, v_c = |a'| in m/s.
@@ -52,7 +53,7 @@ T opening_energy(const Encounter<T>& e, const T& work, const T& exponent) {
   const OpeningLoss loss = opening_loss(
       {value_of(groups[0]), value_of(groups[1]), value_of(groups[2]), value_of(groups[3]),
        value_of(groups[4]), value_of(groups[5]), value_of(groups[6])},
-      e.at->phase == AdhesionDampingPhase::both);
+      e.at->phase == AdhesionDampingPhase::both, !std::is_same_v<T, double>);
   T square(loss.square);
   for (std::size_t k = 0; k < OpeningGroups::count; ++k) {
     add_slopes(square, loss.slopes[k], groups[k]);

@@ -66,7 +66,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
     for (int newton = 0; newton < 40 && !done; ++newton) {
       inverse = (Eigen::Matrix3d::Identity() - couplings * slopes.asDiagonal()).inverse();
       Stages change = inverse * miss;
-      done = change.cwiseAbs().maxCoeff() < 1e-9;
+      done = change.cwiseAbs().maxCoeff() < 1e-6;  // the next one is of the order of its square
       // Half as far as long as it leads away.
       Stages next = miss_at(at - change);
       for (int half = 0; half < 12 && !done && !(next.squaredNorm() < miss.squaredNorm()); ++half) {

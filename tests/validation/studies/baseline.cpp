@@ -3,12 +3,27 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "analysis/analysis.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case_files.hpp"
 
 namespace hidden {
 namespace {
+
+namespace fs = std::filesystem;
+using recoil::FitResult;
+
+/// Infinite where there is no fit.
+double aicc(const FitResult& fitted) {
+  if (!fitted.usable) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(fitted.residuals.size());
+  const double k = fitted.model.free_count();
+  return fitted.chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
 
 /// Of numbers about their means; 0 where one does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -50,7 +65,24 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
   return best;
 }
 
-BaselineAnswers baseline_answers(const Case& made, const std::filesystem::path& binary) {
+FitResult fit_with(const fs::path& fit, const std::vector<std::string>& mechanisms) {
+  std::string ids;
+  for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
+  std::string text = recoil::read_text_file(fit);
+  const std::string model = "[model]\n";
+  text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
+  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
+  recoil::write_whole_file(changed, text);
+  try {
+    const recoil::FitInputs inputs = recoil::load_inputs(changed);
+    return recoil::fit(recoil::make_model(inputs.spec, inputs.datasets),
+                       recoil::gather(inputs.datasets, inputs.spec));
+  } catch (const recoil::InputError&) {  // a mechanism that these data cannot have
+    return {};
+  }
+}
+
+BaselineAnswers baseline_answers(const Case& made) {
   const ScratchFolder scratch;
   const std::filesystem::path fit = write_case(made, scratch.path());
   std::vector<std::string> catalogue;
@@ -59,12 +91,17 @@ BaselineAnswers baseline_answers(const Case& made, const std::filesystem::path& 
       catalogue.emplace_back(effect.id);
     }
   }
-  const PlainFit base = plain_fit(fit, {}, binary);
+  const FitResult base = fit_with(fit, {});
   BaselineAnswers answers;
-  if (base.residuals.empty()) return answers;
+  if (!base.usable) return answers;
+  std::vector<double> log_velocity, log_diameter;
+  for (const recoil::Observation& point : base.data.points) {
+    log_velocity.push_back(std::log(point.velocity));
+    log_diameter.push_back(std::log(point.diameter));
+  }
   const std::vector<double> discrepancy =
-      discrepancy_mean(base.log_velocity, base.log_diameter, base.residuals);
-  double least = base.aicc;
+      discrepancy_mean(log_velocity, log_diameter, base.residuals);
+  double least = aicc(base);
   for (std::size_t round = 0; round < 2 && answers.stepwise.size() == round; ++round) {
     double largest = 0.0;
     std::string added;
@@ -72,15 +109,16 @@ BaselineAnswers baseline_answers(const Case& made, const std::filesystem::path& 
       std::vector<std::string> mechanisms = answers.stepwise;
       if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) continue;
       mechanisms.push_back(id);
-      const PlainFit with = plain_fit(fit, mechanisms, binary);
-      if (with.aicc < least) {
-        least = with.aicc;
+      const FitResult with = fit_with(fit, mechanisms);
+      if (aicc(with) < least) {
+        least = aicc(with);
         added = id;
       }
-      if (round > 0 || discrepancy.empty() || with.predicted.empty()) continue;
+      if (round > 0 || discrepancy.empty() || !with.usable) continue;
       std::vector<double> effect;
-      for (std::size_t i = 0; i < with.predicted.size(); ++i) {
-        effect.push_back((with.predicted[i] - base.predicted[i]) / base.sd[i]);
+      for (std::size_t i = 0; i < with.prediction.size(); ++i) {
+        effect.push_back((with.prediction[i] - base.prediction[i]) /
+                         base.data.points[i].weights.sd);
       }
       const double alike = std::abs(correlation(effect, discrepancy));
       if (alike > largest) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "estimate/fit.hpp"
 #include "validation/synthetic/case.hpp"
 
 namespace hidden {
@@ -20,9 +21,12 @@ struct BaselineAnswers {
   RECOIL_FIELDS(stepwise, correlated)
 };
 
-/// Fits by the built command: the base model, every mechanism, and every second one beside the
-/// best.
-BaselineAnswers baseline_answers(const Case& made, const std::filesystem::path& binary);
+/// The written case `fit`, fitted with `mechanisms`; not usable where the data cannot have them.
+recoil::FitResult fit_with(const std::filesystem::path& fit,
+                           const std::vector<std::string>& mechanisms);
+
+/// Fits the base model, every mechanism, and every second one beside the best.
+BaselineAnswers baseline_answers(const Case& made);
 
 /// The sd of a Gaussian process f with covariance s^2 exp(-|x - x'|^2 / 2) that makes residuals
 /// r = f(x) + noise of unit variance most likely, x = (ln V, ln d), on a grid of s from 0.1 to 100;

@@ -133,6 +133,12 @@ Case without_noise(Case made) {
   return made;
 }
 
+double misfit_left(const fs::path& fit, const std::string& mechanism) {
+  const recoil::FitResult fitted =
+      fit_with(fit, mechanism.empty() ? std::vector<std::string>{} : std::vector{mechanism});
+  return fitted.usable ? std::sqrt(fitted.chi2) : std::numeric_limits<double>::infinity();
+}
+
 namespace {
 
 /// Fits with a spread take a hundred times as long as others.
@@ -145,7 +151,7 @@ bool worth_trying(std::string_view other, std::string_view truth) {
 
 }  // namespace
 
-NearestRival nearest_rival(const Case& made, const fs::path& binary) {
+NearestRival nearest_rival(const Case& made) {
   const ScratchFolder scratch;
   const fs::path fit = write_case(without_noise(made), scratch.path());
   NearestRival closest{"", std::numeric_limits<double>::infinity()};
@@ -155,7 +161,7 @@ NearestRival nearest_rival(const Case& made, const fs::path& binary) {
     if (!in_catalogue || !worth_trying(effect.id, made.order.effects.front())) {
       continue;
     }
-    const double left = std::sqrt(plain_fit(fit, {std::string(effect.id)}, binary).chi2);
+    const double left = misfit_left(fit, std::string(effect.id));
     if (left < closest.misfit) closest = {std::string(effect.id), left};
   }
   return closest;
@@ -177,10 +183,12 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   a.reached = made.reached;
   a.signal_to_noise = made.refit.signal_to_noise;
   if (made.reached) diagnose_in_rounds(made, binary, a);
-  if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
-    a.nearest_rival = nearest_rival(made, binary);
+  const Arm arm = arm_of(order);
+  const bool seen = arm == Arm::effect && order.signal_to_noise >= visible;
+  if (made.reached && seen) a.nearest_rival = nearest_rival(made);
+  if (made.reached && baseline && (seen || arm == Arm::correct)) {
+    a.baseline = baseline_answers(made);
   }
-  if (made.reached && baseline) a.baseline = baseline_answers(made, binary);
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {

@@ -68,21 +68,25 @@ enum class Mark {
 };
 Mark mark_of(const Answered& answered);
 
-/// Fits every other mechanism (base parameters free) to the case without noise, by the built
-/// command. What leaves less than 3 or so, no data of this size can exclude: an honest answer lists
-/// it. Whether its parameters would be plausible is not asked. The spreads of size and adhesion,
-/// slow to fit, are tried only on what else happens near capture.
-NearestRival nearest_rival(const Case& made, const std::filesystem::path& binary);
+/// Fits every other mechanism (base parameters free) to the case without noise. What leaves less
+/// than 3 or so, no data of this size can exclude: an honest answer lists it. Whether its
+/// parameters would be plausible is not asked. The spreads of size and adhesion, slow to fit, are
+/// tried only on what else happens near capture.
+NearestRival nearest_rival(const Case& made);
 
 /// The case with its noise taken away.
 Case without_noise(Case made);
+
+/// Misfit that a fit leaves of a written case with `mechanism` (or none, when empty), as a
+/// signal-to-noise; infinite when there is no fit.
+double misfit_left(const std::filesystem::path& fit, const std::string& mechanism);
 
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);
 
 /// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
 /// answer in `keep` (when not empty), where the next run finds it.
-/// @param baseline ask the plain methods, too
+/// @param baseline ask the plain methods, too, of visible effects and where nothing is hidden
 Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
              const std::filesystem::path& keep, bool baseline = false);
 
