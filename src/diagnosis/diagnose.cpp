@@ -112,69 +112,55 @@ std::string shared_cause(const std::vector<const CandidateResult*>& found) {
   return causes.size() == 1 ? *causes.begin() : std::string();
 }
 
-/// Step 4.
-void decide(const std::vector<const CandidateResult*>& found, bool one_size, Diagnosis& diagnosis) {
-  if (found.empty()) {
-    diagnosis.verdict = Verdict::unexplained;
-    return;
-  }
-  diagnosis.extended = *found.front();
-  if (found.size() == 1 && !one_size) {
-    diagnosis.verdict = Verdict::cause_named;
-    diagnosis.named = found.front()->candidate.added;
-    return;
-  }
-  diagnosis.verdict = Verdict::not_separable;
+/// Several explanations that cannot be told apart, the best first.
+NotSeparable several(const std::vector<const CandidateResult*>& found, bool one_size) {
+  NotSeparable answer;
   for (const CandidateResult* c : found) {
     if (c->candidate.added.size() < found.front()->candidate.added.size()) {
-      diagnosis.alone.push_back(c->candidate.added.front());
+      answer.alone.push_back(c->candidate.added.front());
     }
     for (const std::string& id : c->candidate.added) {
-      auto& rivals = diagnosis.rivals;
+      auto& rivals = answer.rivals;
       if (std::ranges::find(rivals, id) == rivals.end()) rivals.push_back(id);
     }
   }
-  if (one_size) return;  // which tells no cause, nor what causes have in common
-  for (const std::string& id : diagnosis.rivals) {
+  if (one_size) return answer;  // which tells no cause, nor what causes have in common
+  for (const std::string& id : answer.rivals) {
     const bool everywhere = std::ranges::all_of(found, [&](const auto* c) {
       const auto& added = c->candidate.added;
       return std::ranges::find(added, id) != added.end();
     });
-    if (everywhere) diagnosis.common.push_back(id);
+    if (everywhere) answer.common.push_back(id);
   }
-  diagnosis.shared_cause = shared_cause(found);
+  answer.shared_cause = shared_cause(found);
+  return answer;
 }
 
-void compare_capture(Diagnosis& diagnosis) {
+std::vector<CaptureChange> compare_capture(const FitResult& base, const FitResult& extended) {
   std::set<std::pair<std::size_t, double>> sizes;
-  for (const Observation& point : diagnosis.base.data.points) {
-    sizes.insert({point.dataset, point.diameter});
-  }
+  for (const Observation& point : base.data.points) sizes.insert({point.dataset, point.diameter});
   std::vector<CaptureQuery> queries;
   for (const auto& [dataset, diameter] : sizes) {
-    if (!without_adhesion(diagnosis.base.model, dataset)) {
-      queries.push_back({dataset, diameter, 0.0});
-    }
+    if (!without_adhesion(base.model, dataset)) queries.push_back({dataset, diameter, 0.0});
   }
-  const auto values = [&](const FitResult& fitted) {
-    return capture_velocities(fitted.model, fitted.theta, queries);
-  };
-  const std::vector<CaptureVelocity> base = values(diagnosis.base);
-  const std::vector<CaptureVelocity> extended = values(*diagnosis.extended_fit);
+  const auto before = capture_velocities(base.model, base.theta, queries);
+  const auto after = capture_velocities(extended.model, extended.theta, queries);
+  std::vector<CaptureChange> changes;
   for (std::size_t k = 0; k < queries.size(); ++k) {
     CaptureChange change{queries[k].dataset, queries[k].diameter, {}, {}};
-    if (base[k].found) change.base = base[k].value;
-    if (extended[k].found) change.extended = extended[k].value;
-    diagnosis.capture.push_back(change);
+    if (before[k].found) change.base = before[k].value;
+    if (after[k].found) change.extended = after[k].value;
+    changes.push_back(change);
   }
+  return changes;
 }
 
-std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnosis& diagnosis) {
+std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const SearchBase& base) {
   UncertaintyOptions options;
   options.replicates = fitted.data.sd_stated ? 0 : 199;
-  options.level = diagnosis.spec.uncertainty.level;
-  options.seed = diagnosis.options.seed;
-  options.threads = diagnosis.options.threads;
+  options.level = base.spec.uncertainty.level;
+  options.seed = base.options.seed;
+  options.threads = base.options.threads;
   std::vector<IntervalSet> intervals =
       likelihood_intervals(noise_alternatives(fitted), options.level, options.threads);
   add_resampled_intervals(fitted, bootstrap(fitted, {}, options), options.level, options.threads,
@@ -182,25 +168,25 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnos
   return intervals;
 }
 
-/// The extended model as `fit` would have it, with settled weights.
-void extend(const SearchBase& base, Diagnosis& diagnosis) {
-  const CandidateResult& best = *diagnosis.extended;
+/// The base model extended by `cause`, fitted as `fit` does.
+ExtendedModel extended_by(const CandidateResult& cause, const SearchBase& base,
+                          const std::vector<IntervalSet>& base_intervals) {
+  ExtendedModel extended;
+  extended.cause = cause;
   FitOptions options;
   options.several_starts = false;
-  options.start = best.refit.theta;
-  const Observations gathered = gather(base.datasets, base.spec);
-  diagnosis.extended_fit = fit(best.candidate.model, gathered, options);
-  if (!diagnosis.extended_fit->usable) {
-    diagnosis.extended_failure = diagnosis.extended_fit->failure;
-    diagnosis.extended_fit.reset();
-    return;
+  options.start = cause.refit.theta;
+  FitResult fitted = fit(cause.candidate.model, gather(base.datasets, base.spec), options);
+  if (!fitted.usable) {
+    extended.failure = fitted.failure;
+    return extended;
   }
-  if (diagnosis.base_intervals.empty()) {
-    diagnosis.base_intervals = intervals_of_fit(diagnosis.base, diagnosis);
-  }
-  diagnosis.extended_intervals = intervals_of_fit(*diagnosis.extended_fit, diagnosis);
-  diagnosis.gain = best.gain;
-  compare_capture(diagnosis);
+  extended.base_intervals =
+      base_intervals.empty() ? intervals_of_fit(base.fitted, base) : base_intervals;
+  extended.intervals = intervals_of_fit(fitted, base);
+  extended.capture = compare_capture(base.fitted, fitted);
+  extended.fit = std::move(fitted);
+  return extended;
 }
 
 /// Do errors that were not stated leave nothing, and fit so well that no cause can be told beside
@@ -286,53 +272,57 @@ std::vector<std::string> resembling(const std::vector<CandidateResult>& candidat
   return ids;
 }
 
-/// Steps 2 to 4.
+/// Step 4 for two causes at once, with the single ones that come as close.
+std::vector<const CandidateResult*> explanations_by_pairs(const SearchBase& base,
+                                                          const std::vector<Fold>& folds,
+                                                          double margin, bool one_size,
+                                                          Diagnosis& diagnosis) {
+  diagnosis.pairs = try_pairs(base, diagnosis.candidates);
+  judge(base, diagnosis.pairs, margin, folds);
+  std::vector<const CandidateResult*> found = explanations(diagnosis.pairs, margin, one_size);
+  if (found.empty() || outshone_at_the_edge(*found.front(), diagnosis.pairs, margin)) return {};
+  add_close_singles(diagnosis.candidates, margin, base.options.chance, found);
+  return found;
+}
+
+/// Steps 2 to 5.
 /// @param simulated residuals of the data sets that calibrate [points x data sets]
-void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis& diagnosis) {
-  const DiagnosisOptions& options = diagnosis.options;
+DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
+                       const std::vector<IntervalSet>& base_intervals, Diagnosis& diagnosis) {
+  const DiagnosisOptions& options = base.options;
   diagnosis.candidates = try_singles(base);
   calibrate(base, diagnosis.candidates, simulated);
   const std::vector<Fold> folds =
       held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
   const bool one_size = has_one_size(base.fitted.data);
   const double margin = one_size ? margin_at_one_size : options.margin;
+  const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
   judge(base, diagnosis.candidates, INFINITY, folds);
-  std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
-  const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
-  const auto outshone_by_it = [&] {
-    return impossible != diagnosis.candidates.end() &&
-           (found.empty() || outshone(*found.front(), *impossible, margin,
-                                      std::max(margin, options.margin_in_pairs)));
-  };
-  if (outshone_by_it()) found.clear();
-  if (found.empty() && more_than_chance(diagnosis)) {
-    diagnosis.pairs = try_pairs(base, diagnosis.candidates);
-    const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
-    judge(base, diagnosis.pairs, margin_in_pairs, folds);
-    found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
-    if (!found.empty() && outshone_at_the_edge(*found.front(), diagnosis.pairs, margin_in_pairs)) {
-      found.clear();
-    }
-    if (!found.empty()) {
-      add_close_singles(diagnosis.candidates, margin_in_pairs, options.chance, found);
-    }
-  }
-  if (outshone_by_it()) {
-    found.clear();
-    if (!passes_over(diagnosis.candidates, *impossible, options.chance)) {
-      diagnosis.resembles = resembling(diagnosis.candidates, margin);
-    }
-  }
   diagnosis.unstated = unstated_errors(base);
-  if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, margin)) {
-    diagnosis.outdone = found.front()->candidate.name();
-    found.clear();
+  const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
+  const bool has_impossible = impossible != diagnosis.candidates.end();
+  const auto is_outshone = [&](const std::vector<const CandidateResult*>& found) {
+    return has_impossible && !found.empty() &&
+           outshone(*found.front(), *impossible, margin, margin_in_pairs);
+  };
+  std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
+  if ((found.empty() || is_outshone(found)) && more_than_chance(diagnosis)) {
+    found = explanations_by_pairs(base, folds, margin_in_pairs, one_size, diagnosis);
   }
-  decide(found, one_size, diagnosis);
-  if (diagnosis.verdict == Verdict::not_separable) {
-    diagnosis.experiments = next_experiments(base, found);
+  if (found.empty() || is_outshone(found)) {
+    if (!has_impossible || passes_over(diagnosis.candidates, *impossible, options.chance)) {
+      return Unexplained{};
+    }
+    return Resembles{resembling(diagnosis.candidates, margin)};
   }
-  if (diagnosis.extended) extend(base, diagnosis);
+  const CandidateResult& best = *found.front();
+  if (outdone_by_errors(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
+  ExtendedModel extended = extended_by(best, base, base_intervals);
+  if (found.size() == 1 && !one_size) return CauseNamed{std::move(extended)};
+  NotSeparable answer = several(found, one_size);
+  answer.experiments = next_experiments(base, found);
+  answer.extended = std::move(extended);
+  return answer;
 }
 
 /// Is it the errors of the materials that make the model adequate?
@@ -385,13 +375,9 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
-    diagnosis.verdict = Verdict::adequate;
-    diagnosis.materials = materials_explain(diagnosis);
-    diagnosis.if_exact = if_exact(base);
+    diagnosis.answer = Adequate{materials_explain(diagnosis), if_exact(base)};
   } else {
-    diagnosis.base_intervals = base_intervals;
-    search(base, simulated, diagnosis);
-    if (!diagnosis.extended_fit) diagnosis.base_intervals.clear();
+    diagnosis.answer = search(base, simulated, base_intervals, diagnosis);
   }
   return diagnosis;
 }
@@ -476,7 +462,7 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   Diagnosis diagnosis = diagnose_all(others->base, {});
   diagnosis.outlying = outlying;
   diagnosis.for_all =
-      AnswerForAll{for_all.verdict, for_all.named, for_all.rivals, for_all.resembles};
+      AnswerForAll{for_all.verdict(), for_all.named(), for_all.rivals(), for_all.resembles()};
   return diagnosis;
 }
 

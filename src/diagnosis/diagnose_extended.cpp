@@ -70,10 +70,10 @@ std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::pat
     subtable(root, "model").insert_or_assign("loss", diagnosis.spec.loss);
   }
   std::string head = fmt::format("# {}, ", diagnosis.spec.id);
-  if (diagnosis.extended && diagnosis.extended_fit) {
-    const FitSpec& spec = diagnosis.extended->candidate.spec;
-    head += fmt::format("extended by {}: {}\n", diagnosis.extended->candidate.name(),
-                        to_string(diagnosis.verdict));
+  if (const ExtendedModel* extended = diagnosis.extended(); extended && extended->fit) {
+    const FitSpec& spec = extended->cause.candidate.spec;
+    head += fmt::format("extended by {}: {}\n", extended->cause.candidate.name(),
+                        to_string(diagnosis.verdict()));
     toml::array mechanisms;
     for (const std::string& id : spec.mechanisms) {
       if (loss == nullptr || id != loss->info.id) mechanisms.push_back(id);
@@ -81,10 +81,10 @@ std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::pat
     subtable(root, "model").insert_or_assign("mechanisms", mechanisms);
     toml::table& parameters = subtable(root, "parameters");
     for (const ParameterSpec& parameter : spec.parameters) {
-      start_at_estimate(parameters, parameter, *diagnosis.extended_fit);
+      start_at_estimate(parameters, parameter, *extended->fit);
     }
   } else {
-    head += fmt::format("as it was: {}\n", to_string(diagnosis.verdict));
+    head += fmt::format("as it was: {}\n", to_string(diagnosis.verdict()));
   }
   std::ostringstream text;
   text << root;

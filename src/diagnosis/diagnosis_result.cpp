@@ -15,6 +15,43 @@ constexpr int bands = 4;
 
 }  // namespace
 
+Verdict Diagnosis::verdict() const {
+  if (answer_if<Adequate>()) return Verdict::adequate;
+  if (answer_if<CauseNamed>()) return Verdict::cause_named;
+  return answer_if<NotSeparable>() ? Verdict::not_separable : Verdict::unexplained;
+}
+
+std::vector<std::string> Diagnosis::named() const {
+  const auto* one = answer_if<CauseNamed>();
+  return one ? one->extended.cause.candidate.added : std::vector<std::string>();
+}
+
+std::vector<std::string> Diagnosis::rivals() const {
+  const auto* several = answer_if<NotSeparable>();
+  return several ? several->rivals : std::vector<std::string>();
+}
+
+std::vector<std::string> Diagnosis::resembles() const {
+  const auto* shape = answer_if<Resembles>();
+  return shape ? shape->causes : std::vector<std::string>();
+}
+
+std::vector<std::string> Diagnosis::causes() const {
+  if (answer_if<CauseNamed>()) return named();
+  return answer_if<NotSeparable>() ? rivals() : resembles();
+}
+
+const ExtendedModel* Diagnosis::extended() const {
+  if (const auto* one = answer_if<CauseNamed>()) return &one->extended;
+  const auto* several = answer_if<NotSeparable>();
+  return several ? &several->extended : nullptr;
+}
+
+const HeldOutGain* Diagnosis::gain() const {
+  const ExtendedModel* const model = extended();
+  return model && model->fit && model->cause.gain ? &*model->cause.gain : nullptr;
+}
+
 std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
   const std::vector<Observation>& points = fitted.data.points;
   double low = INFINITY, high = 0.0;
@@ -81,7 +118,7 @@ bool tests_the_curve(const Diagnosis& diagnosis) {
 
 bool series_differ(const Diagnosis& diagnosis) {
   constexpr double level = 0.01;
-  if (diagnosis.verdict != Verdict::unexplained || !diagnosis.resembles.empty()) return false;
+  if (diagnosis.verdict() != Verdict::unexplained || diagnosis.answer_if<Resembles>()) return false;
   if (!has_one_size(diagnosis.base.data)) return false;
   return summarise_restitution(diagnosis.datasets).series.p_value.value_or(1.0) < level;
 }
@@ -126,12 +163,12 @@ const CandidateResult* closest_cause(const Diagnosis& diagnosis) {
 }
 
 std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis) {
-  const auto& extended = diagnosis.extended;
+  const ExtendedModel* const extended = diagnosis.extended();
   std::vector<UnstatedErrors> rivals;
   for (const UnstatedErrors& errors : diagnosis.unstated) {
     const bool close =
-        !extended || errors.delta_aicc < extended->delta_aicc + diagnosis.options.margin;
-    const bool two_for_one = extended && extended->candidate.added.size() > 1;
+        !extended || errors.delta_aicc < extended->cause.delta_aicc + diagnosis.options.margin;
+    const bool two_for_one = extended && extended->cause.candidate.added.size() > 1;
     if (errors.leave_nothing() && (close || two_for_one)) rivals.push_back(errors);
   }
   return rivals;

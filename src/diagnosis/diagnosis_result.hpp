@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/names.hpp"
@@ -82,13 +83,63 @@ struct OwnDesign {
   int alarms = 0;                    ///< of these, how many are not adequate
 };
 
+/// The base model with a cause added.
+struct ExtendedModel {
+  CandidateResult cause;         ///< as it was found, with the weights of the base fit
+  std::optional<FitResult> fit;  ///< as `fit` has it, with settled weights; else `failure`
+  std::string failure;           ///< why there is no usable fit
+  /// Intervals of the parameters [slots] of the base fit and of this one: the
+  /// profile where standard deviations are stated, otherwise with 199
+  /// replicates.
+  std::vector<IntervalSet> base_intervals, intervals;
+  std::vector<CaptureChange> capture;
+};
+
+/// The answers. The base model leaves nothing systematic:
+struct Adequate {
+  std::optional<MaterialsExplain> materials;  ///< where its constants matter
+  std::optional<IfExact> if_exact;            ///< where laws are allowed an error
+};
+
+/// One explanation, of one cause or of two at once, is told from all others.
+struct CauseNamed {
+  ExtendedModel extended;  ///< by it
+};
+
+/// Several explanations, which these data cannot tell apart.
+struct NotSeparable {
+  ExtendedModel extended;           ///< by the best of them
+  std::vector<std::string> rivals;  ///< causes in any of them
+  std::vector<std::string> alone;   ///< where the best takes two: those that come close alone
+  std::vector<std::string> common;  ///< causes in all of them
+  std::string shared_cause;         ///< of which all rivals are laws; empty: none
+  std::vector<NextExperiment> experiments;  ///< the least effort first
+};
+
+/// Something of this shape acts: what fits best, but cannot be true, or not be
+/// told from an unknown law of size.
+struct Resembles {
+  std::vector<std::string> causes;
+};
+
+/// Unstated errors do as well as the best explanation, `cause`, or better.
+struct ErrorsTooSmall {
+  std::string cause;
+};
+
+/// Nothing in the catalogue explains the structure.
+struct Unexplained {};
+
+using DiagnosisAnswer =
+    std::variant<Adequate, CauseNamed, NotSeparable, Resembles, ErrorsTooSmall, Unexplained>;
+
 /// What `diagnose` finds.
 struct Diagnosis {
   DiagnosisOptions options;
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult base;
-  Verdict verdict = Verdict::adequate;
+  DiagnosisAnswer answer;
   Structure structure;                      ///< of the base model's residuals
   std::vector<OutlyingPoint> outlying;      ///< set aside; all that follows is without them
   std::optional<AnswerForAll> for_all;      ///< with them; none where there are none
@@ -97,31 +148,24 @@ struct Diagnosis {
   double free_form_p = 1.0;                 ///< of the scatter that it leaves
   std::vector<CandidateResult> candidates;  ///< single mechanisms, the best first
   std::vector<CandidateResult> pairs;       ///< the best pairs of causes, when one did not suffice
-  std::vector<std::string> named;
-  std::vector<std::string> rivals;
-  /// What fits best and cannot be true, or not be told from an unknown law of size: something of
-  /// this shape acts. Nothing is named then.
-  std::vector<std::string> resembles;
-  std::vector<std::string> alone;   ///< of the rivals of two at once, those that come close alone
-  std::vector<std::string> common;  ///< of the rivals, those that every explanation has
-  std::string shared_cause;         ///< of which all rivals are laws; empty: none
-  std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
-  std::optional<FitResult> extended_fit;
-  std::string extended_failure;  ///< why the extended model has no usable fit of its own
-  /// Intervals of the parameters [slots] of the base fit and of the extended one: the profile
-  /// where standard deviations are stated, otherwise with 199 replicates.
-  std::vector<IntervalSet> base_intervals, extended_intervals;
-  std::optional<HeldOutGain> gain;
-  std::vector<CaptureChange> capture;
-  std::vector<NextExperiment> experiments;  ///< the least effort first
   std::vector<ExpectedEffect> expected;     ///< of what the conditions state, the largest first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
-  std::optional<MaterialsExplain> materials;  ///< of an adequate model, where its constants matter
-  std::optional<IfExact> if_exact;  ///< of an adequate model, where laws are allowed an error
-  std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
-  std::optional<OwnDesign> own_design;  ///< where it was asked for
+  std::optional<OwnDesign> own_design;   ///< where it was asked for
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.
   std::vector<std::string> remarks;
+
+  Verdict verdict() const;
+  std::vector<std::string> named() const;      ///< causes; empty: none is named
+  std::vector<std::string> rivals() const;     ///< empty: nothing is listed
+  std::vector<std::string> resembles() const;  ///< empty: no shape is recognised
+  std::vector<std::string> causes() const;     ///< whichever of these there are
+  const ExtendedModel* extended() const;       ///< null where there is none
+  const HeldOutGain* gain() const;             ///< of its fit; null where there is none
+  /// The answer, if it is this one.
+  template <class One>
+  const One* answer_if() const {
+    return std::get_if<One>(&answer);
+  }
 };
 
 /// Have all points about the same diameter, so that none shows how an effect depends on it?

@@ -71,7 +71,7 @@ DesignRates::DesignRates(const Diagnosis& diagnosis, int datasets)
       datasets_(static_cast<std::size_t>(datasets)) {
   for (const CandidateResult& c : diagnosis.candidates) {
     const std::string& id = c.candidate.added.front();
-    if (!contains(diagnosis.named, id) && !contains(diagnosis.rivals, id)) continue;
+    if (!contains(diagnosis.named(), id) && !contains(diagnosis.rivals(), id)) continue;
     for (const double strength : {1.0, 0.5}) {
       truths_.push_back({id, strength, squares_at(c, diagnosis.base.data, strength)});
     }
@@ -89,11 +89,11 @@ std::vector<double> DesignRates::run(std::size_t piece) const {
       diagnosis_.datasets, simulate_points(*base_, truth.squares, 0.0, first_draw + piece));
   try {
     const Diagnosis found = diagnose(diagnosis_.spec, datasets, options_);
-    const bool alone = found.named == std::vector<std::string>{truth.id};
-    const bool listed = contains(found.named, truth.id) || contains(found.rivals, truth.id);
-    const bool seen = found.verdict != Verdict::adequate;
+    const bool alone = found.named() == std::vector<std::string>{truth.id};
+    const bool listed = contains(found.named(), truth.id) || contains(found.rivals(), truth.id);
+    const bool seen = found.verdict() != Verdict::adequate;
     return {seen ? 1.0 : 0.0, alone ? 1.0 : 0.0, listed && !alone ? 1.0 : 0.0,
-            !found.named.empty() && !listed ? 1.0 : 0.0};
+            found.answer_if<CauseNamed>() && !listed ? 1.0 : 0.0};
   } catch (const ComputationError&) {  // which says nothing of a cause
     return {0.0, 0.0, 0.0, 0.0};
   }

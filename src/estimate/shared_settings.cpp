@@ -93,10 +93,11 @@ Eigen::MatrixXd correlations(const std::vector<Observation>& points,
     for (Eigen::Index j = 0; j < count; ++j) {
       const Observation& second = points[which[static_cast<std::size_t>(j)]];
       if (second.launch != first.launch || second.bounce <= first.bounce) continue;
-      const auto apart = static_cast<Eigen::Index>(second.bounce - first.bounce);
+      const auto apart = second.bounce - first.bounce;
       if (apart > 2) continue;
-      found(i, j) = found(j, i) =
-          by_instants(first).tail(3 - apart).dot(by_instants(second).head(3 - apart));
+      const Eigen::Vector3d a = by_instants(first);
+      const Eigen::Vector3d b = by_instants(second);
+      found(i, j) = found(j, i) = apart == 1 ? a(1) * b(0) + a(2) * b(1) : a(2) * b(0);
     }
   }
   return found;

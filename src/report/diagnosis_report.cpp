@@ -126,12 +126,10 @@ Table candidates_table(const Diagnosis& d) {
 /// What the causes in the answer mean.
 List causes_list(const Diagnosis& d) {
   List list;
-  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
-    for (const std::string& id : *ids) {
-      const Mechanism* const mechanism = find_mechanism(id);
-      if (mechanism == nullptr) continue;
-      list.entries.push_back(strong(words_of(id)) + ": " + mechanism->info.title);
-    }
+  for (const std::string& id : d.causes()) {
+    const Mechanism* const mechanism = find_mechanism(id);
+    if (mechanism == nullptr) continue;
+    list.entries.push_back(strong(words_of(id)) + ": " + mechanism->info.title);
   }
   return list;
 }
@@ -145,7 +143,7 @@ std::string remark_of(const HeldOutGain::PerFold& fold) {
 
 Table held_out_table(const Diagnosis& d) {
   Table table;
-  if (!d.gain) return table;
+  if (!d.gain()) return table;
   table.caption = "Both models are fitted without a block of points and compared with that block";
   table.columns = {{"held out"},
                    {"points"},
@@ -153,7 +151,7 @@ Table held_out_table(const Diagnosis& d) {
                    {say("rms of {e}, extended")},
                    {"ln likelihood"},
                    {"remark", "", true}};
-  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
+  for (const HeldOutGain::PerFold& fold : d.gain()->folds) {
     table.rows.push_back(
         {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
          Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
@@ -165,7 +163,8 @@ Table held_out_table(const Diagnosis& d) {
 
 Table both_models_table(const Diagnosis& d) {
   Table table;
-  if (!d.extended_fit) return table;
+  if (!d.extended() || !d.extended()->fit) return table;
+  const ExtendedModel& model_of = *d.extended();
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
   table.compact = true;
   table.caption = "Parameters under both models";
@@ -174,12 +173,12 @@ Table both_models_table(const Diagnosis& d) {
                                  percent(d.spec.law_error));
   }
   table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
-  const ImpactModel& model = d.extended_fit->model;
+  const ImpactModel& model = model_of.fit->model;
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
     const ParameterSlot& slot = model.slots[s];
     if (slot.is_constant()) continue;
-    const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
-    const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
+    const UnderModel base = under_model(d.base, model_of.base_intervals, slot.label());
+    const UnderModel extended = under_model(*model_of.fit, model_of.intervals, slot.label());
     Sentence name = parameter_words(model, s, d.datasets);
     if (slot.parameter->unit != "1") name += " [" + unit(slot.parameter->unit) + "]";
     table.rows.push_back({std::move(name), base.estimate, base.interval, extended.estimate,
@@ -197,7 +196,8 @@ Table capture_change_table(const Diagnosis& d) {
   const auto cell = [](const std::optional<double>& value) {
     return value ? Cell(Number{*value, significant(4)}) : Cell("none");
   };
-  for (const CaptureChange& change : d.capture) {
+  if (!d.extended()) return table;
+  for (const CaptureChange& change : d.extended()->capture) {
     table.rows.push_back(
         {Sentence(size_text(change.diameter, sizes)),
          d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, change.dataset))) : Cell(),
@@ -209,7 +209,8 @@ Table capture_change_table(const Diagnosis& d) {
 Table next_experiment_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
-  if (d.experiments.empty()) return table;
+  const auto* several = d.answer_if<NotSeparable>();
+  if (!several || several->experiments.empty()) return table;
   table.compact = true;
   table.caption =
       "Experiments with the fewest impacts: impacts that make the expected odds between two causes "
@@ -217,7 +218,7 @@ Table next_experiment_table(const Diagnosis& d) {
   table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
                    {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
                    {say("difference in {e}")}};
-  for (const NextExperiment& next : d.experiments) {
+  for (const NextExperiment& next : several->experiments) {
     table.rows.push_back(
         {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
          Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},

@@ -150,7 +150,7 @@ TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, st
     return values;
   };
   curves.base = restitutions(d.base);
-  curves.extended = restitutions(*d.extended_fit);
+  curves.extended = restitutions(*d.extended()->fit);
   return curves;
 }
 
@@ -218,7 +218,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   return figure_of(std::move(picture),
                    fmt::format("Dashed: the model. Solid: extended by {}. Error bars are one "
                                "standard deviation.",
-                               words_of(d.extended->candidate.name())));
+                               words_of(d.extended()->cause.candidate.name())));
 }
 
 }  // namespace
@@ -231,7 +231,7 @@ std::vector<Figure> misfit_figures(const Diagnosis& d) {
 
 std::vector<Figure> before_after_figures(const Diagnosis& d) {
   std::vector<Figure> figures;
-  if (!d.extended_fit) return figures;
+  if (!d.extended() || !d.extended()->fit) return figures;
   for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(before_after_figure(d, k));
   return figures;
 }

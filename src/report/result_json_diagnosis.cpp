@@ -68,15 +68,16 @@ std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateR
 }
 
 std::optional<DiagnosisFile::Gain> gain_of(const Diagnosis& d) {
-  if (!d.gain) return std::nullopt;
-  DiagnosisFile::Gain out = {.held_out_rmse_base = d.gain->rmse_base,
-                             .held_out_rmse_extended = d.gain->rmse_extended,
-                             .relative = d.gain->relative,
+  const HeldOutGain* const gain = d.gain();
+  if (!gain) return std::nullopt;
+  DiagnosisFile::Gain out = {.held_out_rmse_base = gain->rmse_base,
+                             .held_out_rmse_extended = gain->rmse_extended,
+                             .relative = gain->relative,
                              .interval = {},
-                             .log_score = d.gain->log_score,
+                             .log_score = gain->log_score,
                              .folds = {}};
-  if (d.gain->lower && d.gain->upper) out.interval = {*d.gain->lower, *d.gain->upper};
-  for (const HeldOutGain::PerFold& one : d.gain->folds) {
+  if (gain->lower && gain->upper) out.interval = {*gain->lower, *gain->upper};
+  for (const HeldOutGain::PerFold& one : gain->folds) {
     out.folds.push_back({.kind = one.fold.kind,
                          .name = fold_words(one.fold, d.datasets),
                          .points = one.fold.points.size(),
@@ -110,7 +111,9 @@ DiagnosisFile::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet
 
 std::vector<DiagnosisFile::Experiment> experiments_of(const Diagnosis& d) {
   std::vector<DiagnosisFile::Experiment> list;
-  for (const NextExperiment& next : d.experiments) {
+  const auto* several = d.answer_if<NotSeparable>();
+  if (!several) return list;
+  for (const NextExperiment& next : several->experiments) {
     DiagnosisFile::Experiment& out = list.emplace_back();
     out.kind = next.kind;
     if (next.kind == ExperimentKind::condition) {
@@ -159,7 +162,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
   out.restitution_summary = std::move(restitution.means);
   out.velocity_dependence = std::move(restitution.velocity);
   out.series_differ = std::move(restitution.series);
-  out.verdict = d.verdict;
+  out.verdict = d.verdict();
   out.headline = headline(d);
   out.text = answer_words(d);
   out.misfit = misfit_of(d);
@@ -175,20 +178,26 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
     out.with_outlying_points = {all->verdict, all->named, all->rivals, all->resembles};
   }
   out.law_error = d.spec.law_error;
-  if (d.if_exact) out.if_exact = {d.if_exact->p_value, d.if_exact->listed};
-  out.named = d.named;
-  out.rivals = d.rivals;
-  if (d.materials) out.rivals.emplace_back("materials_within_errors");
-  out.resembles = d.resembles;
-  out.in_every_explanation = d.common;
-  if (!d.shared_cause.empty()) out.shared_cause = d.shared_cause;
+  out.named = d.named();
+  out.rivals = d.rivals();
+  out.resembles = d.resembles();
+  if (const auto* adequate = d.answer_if<Adequate>()) {
+    if (const auto& exact = adequate->if_exact) out.if_exact = {exact->p_value, exact->listed};
+    if (adequate->materials) out.rivals.emplace_back("materials_within_errors");
+  }
+  if (const auto* several = d.answer_if<NotSeparable>()) {
+    out.in_every_explanation = several->common;
+    if (!several->shared_cause.empty()) out.shared_cause = several->shared_cause;
+  }
   out.candidates = candidates_of(d.candidates, d.candidates.size());
   constexpr std::size_t most_pairs = 20;
   out.pairs = candidates_of(d.pairs, most_pairs);
   out.gain = gain_of(d);
-  out.base = fit_of(d.base, d.base_intervals);
-  if (d.extended_fit) out.extended = fit_of(*d.extended_fit, d.extended_intervals);
-  for (const CaptureChange& change : d.capture) {
+  const ExtendedModel none;
+  const ExtendedModel& extended = d.extended() ? *d.extended() : none;
+  out.base = fit_of(d.base, extended.base_intervals);
+  if (extended.fit) out.extended = fit_of(*extended.fit, extended.intervals);
+  for (const CaptureChange& change : extended.capture) {
     out.capture_velocity.push_back({.dataset = d.datasets[change.dataset].id,
                                     .diameter_um = in_um(change.diameter),
                                     .base = change.base,

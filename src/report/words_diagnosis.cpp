@@ -228,8 +228,8 @@ std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {
         "{} of {} simulated data sets could not be fitted; the p-values follow from the others",
         d.structure.failed, d.structure.failed + d.structure.simulated));
   }
-  if (!d.extended_failure.empty()) {
-    warnings.push_back("the fit of the extended model failed: " + d.extended_failure);
+  if (const ExtendedModel* extended = d.extended(); extended && !extended->fit) {
+    warnings.push_back("the fit of the extended model failed: " + extended->failure);
   }
   return warnings;
 }
@@ -247,7 +247,7 @@ std::string where_words(const Diagnosis& d) {
 
 namespace {
 
-std::string headline_of_several(const Diagnosis& d) {
+std::string headline_of(const NotSeparable& d) {
   if (!d.shared_cause.empty()) {
     return fmt::format("Cause of the misfit: {}, by one of several laws ({})", d.shared_cause,
                        cause_words(d.rivals));
@@ -271,7 +271,7 @@ std::string headline_of_several(const Diagnosis& d) {
 }  // namespace
 
 std::string headline(const Diagnosis& d) {
-  switch (d.verdict) {
+  switch (d.verdict()) {
     case Verdict::adequate:
       if (!tests_the_curve(d)) return "These points cannot test the model";
       return d.base.noise_verdict == NoiseVerdict::exceeded && d.spec.law_error > 0.0
@@ -280,13 +280,13 @@ std::string headline(const Diagnosis& d) {
                        percent(d.spec.law_error))
                  : "The model describes these points";
     case Verdict::cause_named:
-      return "Cause of the misfit: " + cause_words(d.named);
+      return "Cause of the misfit: " + cause_words(d.named());
     case Verdict::not_separable:
-      return headline_of_several(d);
+      return headline_of(std::get<NotSeparable>(d.answer));
     case Verdict::unexplained:
-      if (!d.resembles.empty()) {
+      if (const auto* shape = d.answer_if<Resembles>()) {
         return fmt::format("The misfit has the shape of {}, which cannot be its cause",
-                           cause_words(d.resembles, " or "));
+                           cause_words(shape->causes, " or "));
       }
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
@@ -326,20 +326,21 @@ std::string short_titles(const std::vector<std::string>& ids) {
 }
 
 std::string gain_words(const Diagnosis& d) {
-  if (!d.gain || d.gain->folds.empty()) return "";
-  if (!d.gain->any_chosen()) {
+  const HeldOutGain* const gain = d.gain();
+  if (!gain || gain->folds.empty()) return "";
+  if (!gain->any_chosen()) {
     return "Held-out points cannot test the extended model: without them, too few points are left "
            "to require more than the base model.";
   }
   std::string text = fmt::format(
       "The extended model predicts held-out points with an rms error of {:.3g} in e, the base "
       "model with {:.3g}",
-      d.gain->rmse_extended, d.gain->rmse_base);
-  if (d.gain->relative < 0.0) {
-    text += fmt::format(" ({:.0f} % more)", -100.0 * d.gain->relative);
-  } else if (d.gain->lower && d.gain->upper) {
+      gain->rmse_extended, gain->rmse_base);
+  if (gain->relative < 0.0) {
+    text += fmt::format(" ({:.0f} % more)", -100.0 * gain->relative);
+  } else if (gain->lower && gain->upper) {
     text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
-                        100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
+                        100.0 * gain->relative, 100.0 * *gain->lower, 100.0 * *gain->upper);
   }
   return text + ".";
 }
@@ -354,15 +355,15 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
 }
 
 /// The experiment that takes the least effort.
-std::string experiment_words(const Diagnosis& d) {
-  if (d.experiments.empty()) {
+std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
+  if (several.experiments.empty()) {
     return has_one_size(d.base.data)
                ? "Measure spheres of other diameters: causes differ in how their effect depends on "
                  "size."
                : "More impacts of these spheres on this surface would not separate them: measure "
                  "another pair of materials, or use another instrument.";
   }
-  const NextExperiment& next = d.experiments.front();
+  const NextExperiment& next = several.experiments.front();
   const std::string impacts =
       fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
                   diameter_words(next.diameter), next.velocity);
@@ -421,10 +422,11 @@ std::string rival_errors_words(const Diagnosis& d) {
   if (rivals.empty()) return "";
   std::vector<std::string> words;
   for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
-  const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
+  const ExtendedModel* const extended = d.extended();
+  const double behind = extended ? rivals.front().delta_aicc - extended->cause.delta_aicc : 0.0;
   return fmt::format(
       "Unstated errors would explain the misfit {}: {}.",
-      !d.extended ? "without any cause"
+      !extended ? "without any cause"
       : behind > d.options.margin
           ? fmt::format("less well (AICc larger by {:.0f} than with two causes)", behind)
           : "as well",
@@ -480,7 +482,7 @@ std::string untested_words(const Diagnosis& d) {
 std::string wrong_words(const Diagnosis& d) {
   if (d.structure.tests.empty()) return "";
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
-  if (d.verdict == Verdict::adequate) {
+  if (d.answer_if<Adequate>()) {
     if (!tests_the_curve(d)) {
       return fmt::format("The points scatter about the curve no more than stated ({}).", p);
     }
@@ -497,30 +499,32 @@ std::string wrong_words(const Diagnosis& d) {
 }
 
 /// What the headline does not say of several possible causes.
-std::string several_words(const Diagnosis& d) {
+std::string several_words(const Diagnosis& d, const NotSeparable& several) {
   if (has_one_size(d.base.data)) {
     return "With one diameter, the effect of size is unknown, and causes differ mainly in their "
            "effect of size.";
   }
-  if (!d.shared_cause.empty()) return "These data cannot decide which of its laws holds.";
-  if (!d.alone.empty()) {
+  if (!several.shared_cause.empty()) return "These data cannot decide which of its laws holds.";
+  const Candidate& best = several.extended.cause.candidate;
+  if (!several.alone.empty()) {
     return fmt::format(
         "With two causes together ({}) no structure remains, but one alone ({}) comes so close "
         "that it is as likely if the error of its law is larger than assumed.",
-        words_of(d.extended->candidate.name()), short_titles(d.alone));
+        words_of(best.name()), short_titles(several.alone));
   }
-  if (d.extended->candidate.added.size() > 1) {
-    return d.common.empty() ? "Two causes are needed together, and these data cannot decide which."
-                            : "Two causes are needed together.";
+  if (best.added.size() > 1) {
+    return several.common.empty()
+               ? "Two causes are needed together, and these data cannot decide which."
+               : "Two causes are needed together.";
   }
   return "A cause that is not listed is possible, too.";
 }
 
 /// What has the shape of the misfit, and why it is not believed all the same.
-std::string resembling_words(const Diagnosis& d) {
-  const CandidateResult* const first = single_named(d, d.resembles.front());
+std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
+  const CandidateResult* const first = single_named(d, shown.causes.front());
   const std::string shape =
-      fmt::format("The misfit resembles {}", titles_of(d.resembles, ", or like "));
+      fmt::format("The misfit resembles {}", titles_of(shown.causes, " or "));
   return first == nullptr
              ? shape + ", which is not possible."
              : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
@@ -529,16 +533,16 @@ std::string resembling_words(const Diagnosis& d) {
 
 /// Why nothing is named.
 std::string unexplained_words(const Diagnosis& d) {
-  if (!d.resembles.empty()) return resembling_words(d);
+  if (const auto* shown = d.answer_if<Resembles>()) return resembling_words(d, *shown);
   if (series_differ(d)) {
     return "No cause in the catalogue explains the difference: fit each series separately, or "
            "state the condition in which they differ.";
   }
-  if (!d.outdone.empty()) {
+  if (const auto* errors = d.answer_if<ErrorsTooSmall>()) {
     return fmt::format(
         "A possible cause is {}, but unstated errors explain the misfit as well and assume less, "
         "so no cause is named.",
-        words_of(d.outdone));
+        words_of(errors->cause));
   }
   if (!rival_errors(d).empty()) return rival_errors_words(d);
   if (dominant_point(d)) return dominant_point_words(d);
@@ -586,8 +590,8 @@ std::string evidence_words(const Diagnosis& d) {
 }
 
 /// That the errors of the materials make the model adequate, and which of them; empty when not.
-std::string materials_words(const Diagnosis& d) {
-  if (!d.materials) return "";
+std::string materials_words(const Diagnosis& d, const Adequate& answer) {
+  if (!answer.materials) return "";
   std::string moved;
   for (std::size_t k = 0; k < d.base.constants_moved.size(); ++k) {
     const double by = d.base.constants_moved[k];
@@ -599,15 +603,15 @@ std::string materials_words(const Diagnosis& d) {
   return fmt::format(
       "It does so within the errors of the material constants{}{}; with exact constants structure "
       "would remain (p = {:.2g}).",
-      moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
+      moved, moved.empty() ? "" : " standard deviations", answer.materials->p_value_exact);
 }
 
 /// What exact laws would leave; empty where that is nothing.
-std::string if_exact_words(const Diagnosis& d) {
-  if (!d.if_exact || d.if_exact->p_value > d.options.level) return "";
-  const std::vector<std::string>& ids = d.if_exact->listed;
+std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
+  if (!answer.if_exact || answer.if_exact->p_value > d.options.level) return "";
+  const std::vector<std::string>& ids = answer.if_exact->listed;
   return fmt::format("If the laws were exact, structure would remain ({}){}.",
-                     p_words(d.if_exact->p_value, quick_samples),
+                     p_words(answer.if_exact->p_value, quick_samples),
                      ids.empty() ? ", unlike any cause in the catalogue"
                                  : ", most similar to " + cause_words(ids, " or "));
 }
@@ -660,13 +664,15 @@ std::vector<std::string> expected_words(const Diagnosis& d) {
 /// Those that would have gained as much as the answer, but are not possible.
 std::vector<std::string> impossible_words(const Diagnosis& d) {
   std::vector<std::string> words;
-  const double answer = d.extended ? d.extended->delta_aicc + d.options.margin : 0.0;
+  const ExtendedModel* const extended = d.extended();
+  const double answer = extended ? extended->cause.delta_aicc + d.options.margin : 0.0;
+  const std::vector<std::string> rivals = d.rivals();
+  const std::vector<std::string> resembles = d.resembles();
   for (const CandidateResult& c : d.candidates) {
-    const bool said = !d.resembles.empty() && d.resembles.front() == c.candidate.name();
+    const bool said = !resembles.empty() && resembles.front() == c.candidate.name();
     if (said || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
-    const bool listed =
-        std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
+    const bool listed = std::find(rivals.begin(), rivals.end(), c.candidate.name()) != rivals.end();
     words.push_back(as_sentence(listed
                                     ? fmt::format("{} is listed though hardly plausible ({})",
                                                   words_of(c.candidate.name()), set_aside_words(c))
@@ -690,16 +696,14 @@ std::string method_words(const Diagnosis& d) {
       std::any_of(d.datasets.begin(), d.datasets.end(),
                   [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
   std::vector<std::string> words;
-  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
-    for (const std::string& id : *ids) {
-      const Mechanism* const mechanism = find_mechanism(id);
-      if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
-      std::vector<std::string> methods;
-      for (const Method method : mechanism->info.methods) {
-        methods.push_back(words_of(to_string(method)));
-      }
-      words.push_back(fmt::format("{} only with {}", words_of(id), fmt::join(methods, " or ")));
+  for (const std::string& id : d.causes()) {
+    const Mechanism* const mechanism = find_mechanism(id);
+    if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
+    std::vector<std::string> methods;
+    for (const Method method : mechanism->info.methods) {
+      methods.push_back(words_of(to_string(method)));
     }
+    words.push_back(fmt::format("{} only with {}", words_of(id), fmt::join(methods, " or ")));
   }
   if (!unknown || words.empty()) return "";
   return fmt::format(
@@ -731,30 +735,22 @@ std::string outlying_words(const Diagnosis& d) {
 std::vector<std::string> answer_sentences(const Diagnosis& d) {
   std::vector<std::string> sentences = {outlying_words(d), bound_words(d), wrong_words(d),
                                         untested_words(d)};
-  switch (d.verdict) {
-    case Verdict::adequate:
-      sentences.push_back(evidence_words(d));
-      sentences.push_back(materials_words(d));
-      sentences.push_back(if_exact_words(d));
-      break;
-    case Verdict::cause_named:
-      sentences.push_back(d.named.size() == 1
-                              ? fmt::format("Of all mechanisms in the catalogue, only {} explains "
-                                            "it.",
-                                            title_of(d.named.front()))
-                              : fmt::format("Of all mechanisms in the catalogue, only {} together "
-                                            "explain it.",
-                                            titles_of(d.named, " and ")));
-      sentences.push_back(gain_words(d));
-      break;
-    case Verdict::not_separable:
-      sentences.push_back(several_words(d));
-      sentences.push_back(experiment_words(d));
-      break;
-    case Verdict::unexplained:
-      sentences.push_back(unexplained_words(d));
-      sentences.push_back(advice_words(d));
-      break;
+  if (const auto* adequate = d.answer_if<Adequate>()) {
+    sentences.push_back(evidence_words(d));
+    sentences.push_back(materials_words(d, *adequate));
+    sentences.push_back(if_exact_words(d, *adequate));
+  } else if (d.answer_if<CauseNamed>()) {
+    const std::vector<std::string> named = d.named();
+    sentences.push_back(fmt::format("Of all mechanisms in the catalogue, only {} {}.",
+                                    titles_of(named, " and "),
+                                    named.size() == 1 ? "explains it" : "together explain it"));
+    sentences.push_back(gain_words(d));
+  } else if (const auto* several = d.answer_if<NotSeparable>()) {
+    sentences.push_back(several_words(d, *several));
+    sentences.push_back(experiment_words(d, *several));
+  } else {
+    sentences.push_back(unexplained_words(d));
+    sentences.push_back(advice_words(d));
   }
   std::erase(sentences, "");
   const std::vector<std::string> rates = rates_words(d);
@@ -767,20 +763,19 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
   const auto add = [&](const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());
   };
-  if (d.extended) {
+  if (const ExtendedModel* const extended = d.extended()) {
     notes.push_back(fmt::format("The extended model adds {}: {}.",
-                                words_of(d.extended->candidate.name()),
-                                parameters_words(*d.extended)));
-    if (d.verdict != Verdict::cause_named) notes.push_back(gain_words(d));
+                                words_of(extended->cause.candidate.name()),
+                                parameters_words(extended->cause)));
+    if (!d.answer_if<CauseNamed>()) notes.push_back(gain_words(d));
   }
-  const bool told = d.verdict == Verdict::unexplained && d.resembles.empty() && d.outdone.empty();
-  if (!told) notes.push_back(rival_errors_words(d));
-  const bool shown = d.verdict != Verdict::adequate && !where_words(d).empty();
+  if (!d.answer_if<Unexplained>()) notes.push_back(rival_errors_words(d));
+  const bool shown = !d.answer_if<Adequate>() && !where_words(d).empty();
   if (const std::string found = found_words(d); shown && !found.empty()) {
     notes.push_back(fmt::format("Structure in the residuals: {}.", found));
   }
   add(expected_words(d));
-  if (d.verdict != Verdict::adequate) {
+  if (!d.answer_if<Adequate>()) {
     add(impossible_words(d));
     notes.push_back(method_words(d));
   }

@@ -91,7 +91,7 @@ TEST(Diagnose, SetsOddPointsAsideFirst) {
   for (std::size_t i = 0; i < data.points.size(); ++i)
     data.points[i].line = static_cast<int>(i) + 2;
   const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
-  EXPECT_EQ(found.verdict, Verdict::adequate);
+  EXPECT_EQ(found.verdict(), Verdict::adequate);
   ASSERT_EQ(found.outlying.size(), truth.size());
   for (const OutlyingPoint& point : found.outlying) {
     EXPECT_TRUE(truth.contains(static_cast<std::size_t>(point.line) - 2));

@@ -31,7 +31,7 @@ TEST(DesignRates, NamesWhatEveryDataSetShowsAndLittleElse) {
   DiagnosisOptions options = quick();
   options.simulated = 99;
   const Diagnosis found = diagnose(synthetic::spec(), {four_batches()}, options);
-  ASSERT_EQ(found.named, std::vector<std::string>{"series_offset"});
+  ASSERT_EQ(found.named(), std::vector<std::string>{"series_offset"});
   constexpr int datasets = 4;
   const DesignRates rates(found, datasets);
   ASSERT_EQ(rates.pieces(), 3U * datasets);

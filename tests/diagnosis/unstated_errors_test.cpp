@@ -161,14 +161,14 @@ TEST(UnstatedErrors, AreNotThoseOfAFewPointsFarOff) {
 // Whole diagnoses bear the name of that suite, which the sanitizers leave out.
 TEST(Diagnose, UncertainVelocitiesAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.04, 1.0));
-  EXPECT_EQ(found.verdict, Verdict::unexplained);
-  EXPECT_TRUE(found.named.empty() && found.rivals.empty());
+  EXPECT_EQ(found.verdict(), Verdict::unexplained);
+  EXPECT_TRUE(found.named().empty() && found.rivals().empty());
   EXPECT_NE(find(rival_errors(found), ErrorSource::velocity_errors), nullptr);
 }
 
 TEST(Diagnose, DeviationsThatAreTooSmallAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.0, 1.8));
-  EXPECT_EQ(found.verdict, Verdict::unexplained);
+  EXPECT_EQ(found.verdict(), Verdict::unexplained);
   EXPECT_TRUE(counts_errors(found));
 }
 
@@ -176,7 +176,7 @@ TEST(Diagnose, ErrorsDoNotStandForABatch) {
   Dataset data = measured(5, 0.0, 1.0);
   for (ImpactPoint& point : data.points) point.restitution += batch_offset[point.series];
   const Diagnosis found = diagnosed(data);
-  EXPECT_EQ(found.named, std::vector<std::string>{"series_offset"});
+  EXPECT_EQ(found.named(), std::vector<std::string>{"series_offset"});
   EXPECT_FALSE(counts_errors(found));
 }
 
@@ -187,7 +187,7 @@ TEST(Diagnose, ErrorsDoNotStandForADip) {
     if (point.series % 2 == 0) point.restitution -= 0.12 * std::exp(-0.5 * away * away);
   }
   const Diagnosis found = diagnosed(data);
-  EXPECT_EQ(found.verdict, Verdict::unexplained);
+  EXPECT_EQ(found.verdict(), Verdict::unexplained);
   for (const UnstatedErrors& errors : rival_errors(found)) {
     ADD_FAILURE() << name_of(errors.source) << " " << errors.value << " leaves "
                   << errors.remaining_p << ", dAICc " << errors.delta_aicc;
@@ -234,8 +234,8 @@ TEST(UnstatedErrors, OfReadingsAreAskedOfTheirInstrumentsOnly) {
 
 TEST(Diagnose, ReadingErrorsAreNoCause) {
   const Diagnosis found = diagnosed(read_from(1, Method::bounce_intervals, 0.04));
-  EXPECT_EQ(found.verdict, Verdict::unexplained);
-  EXPECT_TRUE(found.named.empty() && found.rivals.empty());
+  EXPECT_EQ(found.verdict(), Verdict::unexplained);
+  EXPECT_TRUE(found.named().empty() && found.rivals().empty());
   EXPECT_NE(find(rival_errors(found), ErrorSource::time_readings), nullptr);
 }
 

@@ -12,53 +12,62 @@ namespace {
 
 using testing::HasSubstr;
 
-Diagnosis answered(Verdict verdict, std::vector<std::string> rivals = {}) {
+Diagnosis answered(DiagnosisAnswer answer) {
   Diagnosis d;
-  d.verdict = verdict;
-  d.rivals = std::move(rivals);
+  d.answer = std::move(answer);
   d.structure.tests = {{StructureQuestion::scatter, 1.0, 0.5},
                        {StructureQuestion::trend, 1.0, 0.5}};
   return d;
 }
 
+NotSeparable between(std::vector<std::string> rivals) {
+  NotSeparable several;
+  several.rivals = std::move(rivals);
+  return several;
+}
+
+CauseNamed names(std::vector<std::string> causes) {
+  CauseNamed one;
+  one.extended.cause.candidate.added = std::move(causes);
+  return one;
+}
+
 TEST(Headline, SaysWhatIsNamed) {
-  Diagnosis d = answered(Verdict::cause_named);
-  d.named = {"plastic_yield", "gas_film"};
+  const Diagnosis d = answered(names({"plastic_yield", "gas_film"}));
   EXPECT_EQ(headline(d), "Cause of the misfit: plastic yield, gas film");
-  EXPECT_EQ(headline(answered(Verdict::adequate)), "The model describes these points");
+  EXPECT_EQ(headline(answered(Adequate{})), "The model describes these points");
 }
 
 TEST(Headline, PraisesNoModelThatWasNotTested) {
-  Diagnosis d = answered(Verdict::adequate);
+  Diagnosis d = answered(Adequate{});
   d.structure.tests.pop_back();  // the scatter alone was asked
   EXPECT_EQ(headline(d), "These points cannot test the model");
 }
 
 TEST(Headline, TellsTheCertainFromTheDoubtful) {
-  Diagnosis d = answered(Verdict::not_separable, {"crack_rate", "plastic_yield", "capillary"});
-  EXPECT_EQ(headline(d),
+  NotSeparable several = between({"crack_rate", "plastic_yield", "capillary"});
+  EXPECT_EQ(headline(answered(several)),
             "The model does not describe these points, for one of several possible causes: crack "
             "rate, plastic yield, capillary");
-  EXPECT_EQ(headline(answered(Verdict::not_separable, {"height_origin"})),
+  EXPECT_EQ(headline(answered(between({"height_origin"}))),
             "The cause of the misfit may be height origin, but these data cannot decide");
-  d.common = {"plastic_yield"};
-  EXPECT_EQ(headline(d),
+  several.common = {"plastic_yield"};
+  EXPECT_EQ(headline(answered(several)),
             "Cause of the misfit: plastic yield, together with crack rate or capillary");
-  d.common.clear();
-  d.shared_cause = "adhesion hysteresis";
-  EXPECT_EQ(headline(d),
+  several.common.clear();
+  several.shared_cause = "adhesion hysteresis";
+  EXPECT_EQ(headline(answered(several)),
             "Cause of the misfit: adhesion hysteresis, by one of several laws (crack rate, "
             "plastic yield, capillary)");
 }
 
 TEST(Headline, StaysShortWithManyRivals) {
-  const std::string text =
-      headline(answered(Verdict::not_separable, {"a", "b", "c_d", "d", "e", "f", "g"}));
+  const std::string text = headline(answered(between({"a", "b", "c_d", "d", "e", "f", "g"})));
   EXPECT_THAT(text, HasSubstr("a, b, c d, d, e and 2 more"));
 }
 
 TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
-  Diagnosis d = answered(Verdict::unexplained);
+  Diagnosis d = answered(Unexplained{});
   EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
   d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.001});
   EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
@@ -67,16 +76,15 @@ TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
 }
 
 TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
-  Diagnosis d = answered(Verdict::cause_named);
+  Diagnosis d = answered(names({"gas_film"}));
+  CandidateResult& cause = std::get<CauseNamed>(d.answer).extended.cause;
   d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.4});
-  d.extended.emplace();
-  d.extended->candidate.added = {"gas_film"};
-  d.extended->delta_aicc = -50.0;
+  cause.delta_aicc = -50.0;
   EXPECT_TRUE(rival_errors(d).empty());
-  d.extended->delta_aicc = -42.0;
+  cause.delta_aicc = -42.0;
   EXPECT_EQ(rival_errors(d).size(), 1U);
-  d.extended->delta_aicc = -50.0;
-  d.extended->candidate.added = {"gas_film", "plastic_yield"};
+  cause.delta_aicc = -50.0;
+  cause.candidate.added = {"gas_film", "plastic_yield"};
   EXPECT_EQ(rival_errors(d).size(), 1U) << "two causes against one number";
 }
 
