@@ -31,8 +31,7 @@ constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of o
 
 /// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {
-  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, quick_samples,
-                         base.options.seed)
+  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, base.noise)
       .p_value;
 }
 
@@ -47,16 +46,16 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
     answers[b] = residuals_of_sample(base, b);
     progress.advance();
   });
-  std::vector<PerValue<StructureQuestion, double>> simulated;
+  Samples simulated;
   Eigen::MatrixXd residuals(static_cast<Eigen::Index>(base.fitted.data.points.size()),
                             static_cast<Eigen::Index>(count));
-  for (const auto& answer : answers) {
+  for (auto& answer : answers) {
     if (!answer) continue;
     residuals.col(static_cast<Eigen::Index>(simulated.size())) =
         Eigen::Map<const Eigen::VectorXd>(answer->data(), residuals.rows());
-    simulated.push_back(statistics(*answer));
+    simulated.push_back(std::move(*answer));
   }
-  diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
+  diagnosis.structure = judge_structure(statistics, base.refit.residuals, statistics(simulated));
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
   diagnosis.free_form = statistics.free_form(base.refit.residuals);
   if (!diagnosis.free_form.empty()) {
@@ -296,7 +295,7 @@ void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis&
       held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
   const bool one_size = has_one_size(base.fitted.data);
   const double margin = one_size ? margin_at_one_size : options.margin;
-  judge(base, diagnosis.candidates, INFINITY, folds);
+  judge(base, diagnosis.candidates, margin, folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
   const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
   const auto outshone_by_it = [&] {
@@ -329,6 +328,7 @@ void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis&
     found.clear();
   }
   decide(found, one_size, diagnosis);
+  if (options.answer_alone) return;
   if (diagnosis.verdict == Verdict::not_separable) {
     diagnosis.experiments = next_experiments(base, found);
   }
@@ -386,6 +386,7 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
     diagnosis.verdict = Verdict::adequate;
+    if (options.answer_alone) return diagnosis;
     diagnosis.materials = materials_explain(diagnosis);
     diagnosis.if_exact = if_exact(base);
   } else {
