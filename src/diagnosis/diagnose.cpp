@@ -31,8 +31,7 @@ constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of o
 
 /// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {
-  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, quick_samples,
-                         base.options.seed)
+  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, base.noise)
       .p_value;
 }
 
@@ -47,16 +46,16 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
     answers[b] = residuals_of_sample(base, b);
     progress.advance();
   });
-  std::vector<PerValue<StructureQuestion, double>> simulated;
+  Samples simulated;
   Eigen::MatrixXd residuals(static_cast<Eigen::Index>(base.fitted.data.points.size()),
                             static_cast<Eigen::Index>(count));
-  for (const auto& answer : answers) {
+  for (auto& answer : answers) {
     if (!answer) continue;
     residuals.col(static_cast<Eigen::Index>(simulated.size())) =
         Eigen::Map<const Eigen::VectorXd>(answer->data(), residuals.rows());
-    simulated.push_back(statistics(*answer));
+    simulated.push_back(std::move(*answer));
   }
-  diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
+  diagnosis.structure = judge_structure(statistics, base.refit.residuals, statistics(simulated));
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
   diagnosis.free_form = statistics.free_form(base.refit.residuals);
   if (!diagnosis.free_form.empty()) {
@@ -173,6 +172,7 @@ ExtendedModel extended_by(const CandidateResult& cause, const SearchBase& base,
                           const std::vector<IntervalSet>& base_intervals) {
   ExtendedModel extended;
   extended.cause = cause;
+  if (base.options.answer_alone) return extended;
   FitOptions options;
   options.several_starts = false;
   options.start = cause.refit.theta;
@@ -297,7 +297,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   const bool one_size = has_one_size(base.fitted.data);
   const double margin = one_size ? margin_at_one_size : options.margin;
   const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
-  judge(base, diagnosis.candidates, INFINITY, folds);
+  judge(base, diagnosis.candidates, margin, folds);
   diagnosis.unstated = unstated_errors(base);
   const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
   const bool has_impossible = impossible != diagnosis.candidates.end();
@@ -320,7 +320,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   ExtendedModel extended = extended_by(best, base, base_intervals);
   if (found.size() == 1 && !one_size) return CauseNamed{std::move(extended)};
   NotSeparable answer = several(found, one_size);
-  answer.experiments = next_experiments(base, found);
+  if (!options.answer_alone) answer.experiments = next_experiments(base, found);
   answer.extended = std::move(extended);
   return answer;
 }
@@ -375,7 +375,8 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
-    diagnosis.answer = Adequate{materials_explain(diagnosis), if_exact(base)};
+    diagnosis.answer = options.answer_alone ? Adequate{}
+                                            : Adequate{materials_explain(diagnosis), if_exact(base)};
   } else {
     diagnosis.answer = search(base, simulated, base_intervals, diagnosis);
   }

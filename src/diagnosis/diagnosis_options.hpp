@@ -26,7 +26,8 @@ struct DiagnosisOptions {
   /// others.
   double margin_in_pairs = 6.0;
   std::uint64_t seed = 20260101;
-  int threads = 0;  ///< 0: all cores. No digit depends on it.
+  bool answer_alone = false;  ///< only the verdict, with what is named or listed
+  int threads = 0;            ///< 0: all cores. No digit depends on it.
   /// Results of pieces of the work (`KeptPiece`) from an earlier run or other processes: those
   /// pieces are not run again, and new results are added. Null: nothing is kept.
   std::shared_ptr<KeptRows> kept;

@@ -136,8 +136,11 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     const Observations unseen = subset(data, folds[f].points, true);
     const LawErrors of_seen = laws.of(indices_of(data, folds[f].points, false));
     const LawErrors of_unseen = laws.of(folds[f].points);
-    const Refit refit =
-        with_law_errors(candidate, seen, refit_candidate(candidate, seen, near, 0), of_seen);
+    Refit start;
+    start.usable = true;
+    start.theta.assign(near.begin(), near.end());
+    const Refit refit = laws.none() ? refit_candidate(candidate, seen, near, 0)
+                                    : with_law_errors(candidate, seen, std::move(start), of_seen);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
     std::vector<double> residuals(problem.residual_count);

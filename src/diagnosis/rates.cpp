@@ -52,6 +52,7 @@ std::vector<Dataset> with_readings(std::vector<Dataset> datasets, const Observat
 
 DiagnosisOptions of_one_data_set(DiagnosisOptions options) {
   options.kept.reset();
+  options.answer_alone = true;
   options.threads = 1;
   options.first_piece = 0;
   return options;

@@ -60,6 +60,7 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
                   {},
                   0.0,
                   1.0,
+                  white_noise(quick_samples, estimated.data.points.size(), options.seed),
                   options};
   const FitResult& fitted = base.fitted;
   base.laws = {spec.law_error, law_error_of_base * spec.law_error, smooth_functions(fitted.data)};

@@ -23,6 +23,7 @@ struct SearchBase {
   Refit refit;
   double criterion = 0.0;
   double noise_scale = 1.0;  ///< of the base: 1 where standard deviations are stated
+  Samples noise;             ///< white, for `quick_structure`
   const DiagnosisOptions& options;
 };
 

@@ -221,13 +221,6 @@ void StructureStatistics::add_global_functions(const Observations& data) {
   }
 }
 
-double StructureStatistics::square_along(const std::vector<Column>& columns,
-                                         std::span<const double> r) const {
-  double sum = 0.0;
-  for (const Column& column : columns) sum += std::pow(dot(column, r), 2);
-  return sum;
-}
-
 std::size_t StructureStatistics::places() const {
   std::size_t count = 0;
   for (const auto& run : runs_) count += run.size();
@@ -261,61 +254,111 @@ bool StructureStatistics::asks(StructureQuestion question) const {
   return false;
 }
 
-PerValue<StructureQuestion, double> StructureStatistics::operator()(
-    std::span<const double> residuals) const {
-  std::vector<double> r(residuals.begin(), residuals.end());
-  for (std::size_t i = 0; i < r.size(); ++i) {
-    if (!used_[i]) r[i] = 0.0;
-  }
-  const double square = dot(r, r);
-  if (!stated_ && square > 0.0) {  // in units of their own size
-    const double dof = static_cast<double>(used_count_) - static_cast<double>(model_.size());
-    const double scale = std::sqrt(square / std::max(dof, 1.0));
-    for (double& value : r) value /= scale;
-  }
-  double runs = 0.0;
-  for (const auto& run : runs_) {
-    double before = 0.0;
-    for (const std::vector<std::size_t>& members : run) {
-      double sum = 0.0, square_of_slopes = 0.0;
-      for (const std::size_t i : members) {
-        sum += slopes_[i] * r[i];
-        square_of_slopes += slopes_[i] * slopes_[i];
-      }
-      const double mean = square_of_slopes > 0.0 ? sum / std::sqrt(square_of_slopes) : 0.0;
-      runs += before * mean;
-      before = mean;
+namespace {
+
+/// The samples, 0 where a point is not used [samples x points].
+Eigen::MatrixXd matrix_of(const Samples& samples, const std::vector<bool>& used) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(samples.size()),
+                      static_cast<Eigen::Index>(used.size()));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t b = 0; b < samples.size(); ++b) {
+      all(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(i)) =
+          used[i] ? samples[b][i] : 0.0;
     }
   }
-  double smooth = -INFINITY;
-  double along = 0.0;
-  for (std::size_t m = 0; m < smooth_.size(); ++m) {
-    along += std::pow(dot(smooth_[m], r), 2);
-    const auto count = static_cast<double>(m + 1);
-    smooth = std::max(smooth, (along - count) / std::sqrt(2.0 * count));
+  return all;
+}
+
+/// Of every sample, the part of each column in it [samples x columns].
+Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
+                            const std::vector<std::vector<double>>& columns) {
+  Eigen::MatrixXd all(samples.cols(), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    all.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[static_cast<std::size_t>(k)].data(),
+                                                   samples.cols());
   }
-  if (smooth_.empty()) smooth = 0.0;
-  PerValue<StructureQuestion, double> answers;
-  answers[StructureQuestion::scatter] = stated_ ? square : 0.0;
-  answers[StructureQuestion::size] = square_along(size_, r);
-  answers[StructureQuestion::trend] = square_along(trend_, r);
-  answers[StructureQuestion::curvature] = square_along(curvature_, r);
-  answers[StructureQuestion::capture] = square_along(capture_, r);
-  answers[StructureQuestion::runs] = runs;
-  answers[StructureQuestion::smooth] = smooth;
+  return samples * all;
+}
+
+}  // namespace
+
+PerValue<StructureQuestion, double> StructureStatistics::operator()(
+    std::span<const double> residuals) const {
+  return (*this)(Samples{{residuals.begin(), residuals.end()}}).front();
+}
+
+std::vector<PerValue<StructureQuestion, double>> StructureStatistics::operator()(
+    const Samples& residuals) const {
+  Eigen::MatrixXd r = matrix_of(residuals, used_);
+  const Eigen::ArrayXd square = r.rowwise().squaredNorm();
+  if (!stated_) {  // in units of their own size
+    const double dof = static_cast<double>(used_count_) - static_cast<double>(model_.size());
+    const Eigen::ArrayXd scale = (square / std::max(dof, 1.0)).sqrt();
+    for (Eigen::Index b = 0; b < r.rows(); ++b) {
+      if (scale(b) > 0.0) r.row(b) /= scale(b);
+    }
+  }
+  Eigen::ArrayXd runs = Eigen::ArrayXd::Zero(r.rows());
+  for (const auto& run : runs_) {
+    Eigen::ArrayXd before = runs;
+    before.setZero();
+    for (const std::vector<std::size_t>& members : run) {
+      Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(r.rows());
+      double square_of_slopes = 0.0;
+      for (const std::size_t i : members) {
+        mean += slopes_[i] * r.col(static_cast<Eigen::Index>(i)).array();
+        square_of_slopes += slopes_[i] * slopes_[i];
+      }
+      mean *= square_of_slopes > 0.0 ? 1.0 / std::sqrt(square_of_slopes) : 0.0;
+      runs += before * mean;
+      before = std::move(mean);
+    }
+  }
+  const Eigen::MatrixXd of_smooth = parts_along(r, smooth_);
+  const double nothing = smooth_.empty() ? 0.0 : -INFINITY;
+  Eigen::ArrayXd smooth = Eigen::ArrayXd::Constant(r.rows(), nothing);
+  Eigen::ArrayXd along = Eigen::ArrayXd::Zero(r.rows());
+  for (Eigen::Index m = 0; m < of_smooth.cols(); ++m) {
+    along += of_smooth.col(m).array().square();
+    const auto count = static_cast<double>(m + 1);
+    smooth = smooth.max((along - count) / std::sqrt(2.0 * count));
+  }
+  std::vector<PerValue<StructureQuestion, double>> answers(static_cast<std::size_t>(r.rows()));
+  const auto take = [&](StructureQuestion question, const Eigen::ArrayXd& values) {
+    for (std::size_t b = 0; b < answers.size(); ++b) {
+      answers[b][question] = values(static_cast<Eigen::Index>(b));
+    }
+  };
+  const auto squares_along = [&](const std::vector<Column>& columns) {
+    return Eigen::ArrayXd(parts_along(r, columns).rowwise().squaredNorm());
+  };
+  take(StructureQuestion::scatter, stated_ ? square : Eigen::ArrayXd(0.0 * square));
+  take(StructureQuestion::size, squares_along(size_));
+  take(StructureQuestion::trend, squares_along(trend_));
+  take(StructureQuestion::curvature, squares_along(curvature_));
+  take(StructureQuestion::capture, squares_along(capture_));
+  take(StructureQuestion::runs, runs);
+  take(StructureQuestion::smooth, smooth);
   return answers;
 }
 
 std::vector<double> StructureStatistics::residuals_of_noise(std::span<const double> noise) const {
-  std::vector<double> r(noise.begin(), noise.end());
-  for (std::size_t i = 0; i < r.size(); ++i) {
-    if (!used_[i]) r[i] = 0.0;
+  return residuals_of_noise(Samples{{noise.begin(), noise.end()}}).front();
+}
+
+Samples StructureStatistics::residuals_of_noise(const Samples& noise) const {
+  const Eigen::MatrixXd along = parts_along(matrix_of(noise, used_), model_);
+  Samples left = noise;
+  for (std::size_t b = 0; b < left.size(); ++b) {
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+      double& value = left[b][i];
+      if (!used_[i]) value = 0.0;
+      for (std::size_t k = 0; k < model_.size(); ++k) {
+        value -= along(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)) * model_[k][i];
+      }
+    }
   }
-  for (const Column& column : model_) {
-    const double along = dot(column, r);
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= along * column[i];
-  }
-  return r;
+  return left;
 }
 
 std::vector<double> StructureStatistics::free_form(std::span<const double> residuals) const {
@@ -366,17 +409,21 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
   return judged;
 }
 
-Structure quick_structure(const Observations& data, const Refit& fitted,
-                          std::span<const double> predicted, int count, std::uint64_t seed) {
-  const StructureStatistics statistics(data, fitted, predicted);
-  std::vector<PerValue<StructureQuestion, double>> simulated;
-  std::vector<double> noise(data.points.size());
-  for (int b = 0; b < count; ++b) {
+Samples white_noise(int samples, std::size_t points, std::uint64_t seed) {
+  Samples noise;
+  for (int b = 0; b < samples; ++b) {
     RandomStream random(seed, RandomPurpose::diagnosis, static_cast<std::uint64_t>(b));
-    for (double& value : noise) value = random.normal();
-    simulated.push_back(statistics(statistics.residuals_of_noise(noise)));
+    noise.emplace_back(points);
+    for (double& value : noise.back()) value = random.normal();
   }
-  return judge_structure(statistics, fitted.residuals, simulated);
+  return noise;
+}
+
+Structure quick_structure(const Observations& data, const Refit& fitted,
+                          std::span<const double> predicted, const Samples& noise) {
+  const StructureStatistics statistics(data, fitted, predicted);
+  return judge_structure(statistics, fitted.residuals,
+                         statistics(statistics.residuals_of_noise(noise)));
 }
 
 }  // namespace recoil

@@ -12,6 +12,8 @@
 
 namespace recoil {
 
+using Samples = std::vector<std::vector<double>>;  ///< residuals of many data sets
+
 /// A question put to the residuals, see `StructureStatistics`.
 enum class StructureQuestion { scatter, size, trend, curvature, capture, runs, smooth };
 template <>
@@ -63,10 +65,12 @@ class StructureStatistics {
                       std::span<const double> predicted);
 
   PerValue<StructureQuestion, double> operator()(std::span<const double> residuals) const;
+  std::vector<PerValue<StructureQuestion, double>> operator()(const Samples& residuals) const;
 
   /// The projection of white noise onto what the fit leaves: what residuals look like where the
   /// model is right, to first order.
   std::vector<double> residuals_of_noise(std::span<const double> noise) const;
+  Samples residuals_of_noise(const Samples& noise) const;
 
   /// Can these points answer the question?
   bool asks(StructureQuestion question) const;
@@ -84,7 +88,6 @@ class StructureStatistics {
   bool orthogonalise(Column& column, const std::vector<Column>& against) const;
   bool take(Column column, std::vector<Column>& into) const;
   void keep_to_impacts(Column& column) const;
-  double square_along(const std::vector<Column>& columns, std::span<const double> r) const;
 
   bool stated_ = true;
   bool noise_known_ = true;
@@ -106,11 +109,14 @@ class StructureStatistics {
 Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
                           const std::vector<PerValue<StructureQuestion, double>>& simulated);
 
-inline constexpr int quick_samples = 999;  ///< as many as all callers of `quick_structure` take
+inline constexpr int quick_samples = 999;  ///< of white noise, for `quick_structure`
 
-/// The structure in the residuals of `fitted`, beside `count` samples of white noise that go
-/// through the same projection: no refits, exact for a model that is linear over its errors.
+/// Standard normal numbers; every sample has its own stream.
+Samples white_noise(int samples, std::size_t points, std::uint64_t seed);
+
+/// The structure in the residuals of `fitted`, beside samples of `noise` that go through the same
+/// projection: no refits, exact for a model that is linear over its errors.
 Structure quick_structure(const Observations& data, const Refit& fitted,
-                          std::span<const double> predicted, int count, std::uint64_t seed);
+                          std::span<const double> predicted, const Samples& noise);
 
 }  // namespace recoil

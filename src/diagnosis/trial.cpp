@@ -148,11 +148,15 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
   if (!result.refit.usable) return result;
   result.delta_aicc =
       corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
-  const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
-  result.remaining_p =
-      quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
   result.remaining_part = part_left(base, result);
   return result;
+}
+
+void find_what_is_left(const SearchBase& base, CandidateResult& result) {
+  if (!result.refit.usable) return;
+  const Observations& data = base.fitted.data;
+  const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
+  result.remaining_p = quick_structure(data, result.refit, squares, base.noise).p_value;
 }
 
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
@@ -286,6 +290,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
   hold_to_what_is_possible(base, result, tries_alone);
+  find_what_is_left(base, result);
   return result;
 }
 

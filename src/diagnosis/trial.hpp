@@ -32,8 +32,8 @@ Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points)
 /// @throws std::exception unless `row` begins with `names`
 void require_names(const Json& row, const std::vector<std::string>& names);
 
-/// `candidate` refitted from `near` under the errors of laws, with what it gains and leaves; of its
-/// starts `tries` are followed (`refit_candidate`).
+/// `candidate` refitted from `near` under the errors of laws, with what it gains; of its starts
+/// `tries` are followed (`refit_candidate`).
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries);
 
@@ -42,8 +42,11 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
 /// batch takes two series.
 bool can_be_seen(const SearchBase& base, const Candidate& candidate);
 
-/// What a fitted candidate is, gains and leaves.
+/// What a fitted candidate is and gains.
 CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit);
+
+/// Sets the p-value of the structure that `result` leaves.
+void find_what_is_left(const SearchBase& base, CandidateResult& result);
 
 /// The same with released parameters, if that is worth it.
 void try_released(const SearchBase& base, CandidateResult& result, int tries);

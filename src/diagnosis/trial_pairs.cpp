@@ -100,12 +100,14 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   if (!follow) {
     Refit refit = under_law_errors(look.both, data, std::move(look.refit), base.laws);
     CandidateResult result = examine(base, std::move(look.both), std::move(refit));
+    find_what_is_left(base, result);
     result.set_aside = SetAside::far_behind;
     return result;
   }
   Refit refit = with_law_errors(look.both, data, std::move(look.refit), base.laws);
   CandidateResult result = examine(base, std::move(look.both), std::move(refit));
   try_released(base, result, tries_in_pairs);
+  find_what_is_left(base, result);
   // Each has to carry its part.
   const double better = std::min(first.delta_aicc, second.delta_aicc);
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;

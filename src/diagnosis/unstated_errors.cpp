@@ -109,7 +109,7 @@ double deviance_with_weights(const Observations& data, const Refit& refit) {
 /// Part of normal samples through the same projection whose fourth moment, beside the square of the
 /// second, is as large: a few points far off are not errors that all points have.
 double tails_p(const StructureStatistics& statistics, std::span<const double> residuals,
-               std::uint64_t seed) {
+               const Samples& noise) {
   const auto tails = [](std::span<const double> r) {
     double second = 0.0, fourth = 0.0;
     for (const double value : r) {
@@ -119,22 +119,18 @@ double tails_p(const StructureStatistics& statistics, std::span<const double> re
     return second > 0.0 ? fourth / (second * second) : 0.0;
   };
   const double own = tails(residuals);
-  std::vector<double> noise(residuals.size());
-  int as_large = 0;
-  for (int b = 0; b < quick_samples; ++b) {
-    RandomStream random(seed, RandomPurpose::diagnosis, static_cast<std::uint64_t>(b));
-    for (double& value : noise) value = random.normal();
-    if (tails(statistics.residuals_of_noise(noise)) >= own) ++as_large;
-  }
-  return (1.0 + as_large) / (1.0 + quick_samples);
+  const auto as_large =
+      std::ranges::count_if(statistics.residuals_of_noise(noise),
+                            [&](const std::vector<double>& r) { return tails(r) >= own; });
+  return (1.0 + static_cast<double>(as_large)) / (1.0 + static_cast<double>(noise.size()));
 }
 
 /// The smaller p-value of structure and tails of the residuals, corrected for two tests.
 double remaining_p(const SearchBase& base, const Observations& data, const Refit& refit,
                    std::span<const double> predicted) {
-  const std::uint64_t seed = base.options.seed;
-  const double structure = quick_structure(data, refit, predicted, quick_samples, seed).p_value;
-  const double tails = tails_p(StructureStatistics(data, refit, predicted), refit.residuals, seed);
+  const double structure = quick_structure(data, refit, predicted, base.noise).p_value;
+  const double tails =
+      tails_p(StructureStatistics(data, refit, predicted), refit.residuals, base.noise);
   return std::min(1.0, 2.0 * std::min(structure, tails));
 }
 

@@ -65,7 +65,8 @@ Structure structure_with(const std::vector<double>& shape, unsigned seed) {
   std::vector<double> r = noise(random);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += shape[i];
   made.fitted.residuals = made.statistics().residuals_of_noise(r);
-  return quick_structure(made.data, made.fitted, made.predicted, 499, 7);
+  return quick_structure(made.data, made.fitted, made.predicted,
+                         white_noise(499, made.data.points.size(), 7));
 }
 
 TEST(Structure, LeavesOutWhatTheModelCanFollow) {
@@ -85,7 +86,8 @@ TEST(Structure, AccusesPureNoiseInFivePerCentOfCases) {
   for (int k = 0; k < cases; ++k) {
     made.fitted.residuals = made.statistics().residuals_of_noise(noise(random));
     const Structure found =
-        quick_structure(made.data, made.fitted, made.predicted, 199, static_cast<std::uint64_t>(k));
+        quick_structure(made.data, made.fitted, made.predicted,
+                        white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
     accused += found.p_value <= 0.05 ? 1 : 0;
   }
   // Binomial with 5 %: 20 of 400, standard deviation 4.4.
@@ -125,14 +127,16 @@ TEST(Structure, TellsLargeScatterFromShape) {
     made.fitted.residuals = made.statistics().residuals_of_noise(r);
     made.data.sd_stated = false;  // nobody said how large it should be
     const Structure found =
-        quick_structure(made.data, made.fitted, made.predicted, 199, static_cast<std::uint64_t>(k));
+        quick_structure(made.data, made.fitted, made.predicted,
+                        white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
     for (const StructureTest& test : found.tests)
       ASSERT_NE(test.question, StructureQuestion::scatter);
     accused += found.p_value <= 0.05 ? 1 : 0;
   }
   EXPECT_LE(accused, 12);  // binomial with 5 %: more has a chance of 1 in 500
   made.data.sd_stated = true;
-  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted, 199, 1),
+  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted,
+                                 white_noise(199, made.data.points.size(), 1)),
                  StructureQuestion::scatter),
             0.01);
 }
@@ -196,7 +200,8 @@ struct Drops {
     }
     const StructureStatistics statistics(data, fitted, predicted);
     fitted.residuals = statistics.residuals_of_noise(r);
-    return quick_structure(data, fitted, predicted, 199, seed).p_value;
+    return quick_structure(data, fitted, predicted, white_noise(199, data.points.size(), seed))
+        .p_value;
   }
 };
 
