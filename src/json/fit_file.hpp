@@ -40,11 +40,11 @@ struct ValidityEntry {
   std::optional<double> value;
   double limit = 0.0;
   std::string limit_is;  ///< "least" or "largest" good value
-  bool passed = false;   ///< true where the limit is exceeded: the model does not hold
+  bool exceeded = false;   ///< true where the limit is exceeded: the model does not hold
   OrAbsent<std::string> dataset;
   OrAbsent<double> diameter_um, incident_velocity;  ///< [um], [m/s]
   std::string text;
-  RECOIL_FIELDS(quantity, value, limit, limit_is, passed, dataset, diameter_um, incident_velocity,
+  RECOIL_FIELDS(quantity, value, limit, limit_is, exceeded, dataset, diameter_um, incident_velocity,
                 text)
 };
 

@@ -57,7 +57,7 @@ struct Validity {
   bool limit_is_least() const {
     return quantity == ValidityQuantity::tabor || quantity == ValidityQuantity::wave_transits;
   }
-  bool passed() const { return limit_is_least() ? value < limit : value > limit; }
+  bool exceeded() const { return limit_is_least() ? value < limit : value > limit; }
 };
 
 /// Every quantity for one impact of a sphere as measured. Quantities that do not apply are left

@@ -258,7 +258,7 @@ Section warnings_section(const Analysis& a, const std::vector<Sentence>& warning
                          std::size_t said) {
   std::vector<Sentence> sentences(warnings.begin() + static_cast<std::ptrdiff_t>(said),
                                   warnings.end());
-  for (const std::string& words : passed_limits(a.validity, a.datasets)) {
+  for (const std::string& words : exceeded_limits(a.validity, a.datasets)) {
     sentences.push_back("limit of the model: " + words);
   }
   return detail_section("warnings", "Warnings and limits", {list_of_sentences(sentences)});

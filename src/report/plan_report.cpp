@@ -181,7 +181,7 @@ List limits_of_plan(const ExperimentPlan& plan) {
     all.insert(all.end(), found.begin(), found.end());
   }
   List list;
-  for (const std::string& sentence : passed_limits(all, plan.datasets)) {
+  for (const std::string& sentence : exceeded_limits(all, plan.datasets)) {
     list.entries.push_back(as_sentence(Sentence(sentence)));
   }
   return list;

@@ -601,7 +601,7 @@ ValidityEntry validity_entry(const Validity& check) {
   out.value = check.value;
   out.limit = check.limit;
   out.limit_is = check.limit_is_least() ? "least" : "largest";
-  out.passed = check.passed();
+  out.exceeded = check.exceeded();
   out.text = validity_sentence(check);
   return out;
 }

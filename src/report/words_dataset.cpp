@@ -31,7 +31,7 @@ std::string pressure_words(double pressure) {
 
 std::string tabor_words(const Validity& v) {
   const char* const model = "the model has the equilibrium of JKR";
-  if (!v.passed()) return "adhesion acts inside the contact (JKR), as in the model";
+  if (!v.exceeded()) return "adhesion acts inside the contact (JKR), as in the model";
   if (v.value < dmt_limit) return fmt::format("adhesion acts around the contact (DMT); {}", model);
   return fmt::format("between DMT, below 0.1, and JKR, above 5; {}", model);
 }
@@ -214,11 +214,11 @@ std::string validity_sentence(const Validity& v) {
   return "";
 }
 
-std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
+std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
                                        const std::vector<Dataset>& datasets) {
   std::vector<const Validity*> worst;  // of each quantity
   for (const Validity& one : validity) {
-    if (!one.passed()) continue;
+    if (!one.exceeded()) continue;
     const auto same = std::find_if(worst.begin(), worst.end(), [&](const Validity* other) {
       return other->quantity == one.quantity;
     });
@@ -246,7 +246,7 @@ Table validity_table(const std::vector<Validity>& validity) {
   for (const Validity& one : validity) {
     table.rows.push_back({Sentence(short_name(one.quantity)), Number{one.value, significant(3)},
                           Sentence(fmt::format("{} {:g}{}", one.limit_is_least() ? "from" : "up to",
-                                               one.limit, one.passed() ? ": outside" : ""))});
+                                               one.limit, one.exceeded() ? ": outside" : ""))});
   }
   return table;
 }

@@ -39,7 +39,7 @@ std::string left_out_sentence(const std::vector<LeftOverride>& left_out);
 std::string validity_sentence(const Validity& validity);
 
 /// The worst of those beyond each limit, with the dataset where there are several.
-std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
+std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
                                        const std::vector<Dataset>& datasets);
 
 /// Quantity, value and limit of one impact.

@@ -144,14 +144,14 @@ TEST(Validity, TheWorstPointOfADatasetIsSaid) {
 }
 
 TEST(Validity, LimitsArePassedOnTheRightSide) {
-  const auto passed = [](ValidityQuantity quantity, double value, double limit) {
-    return Validity{quantity, value, limit}.passed();
+  const auto exceeded = [](ValidityQuantity quantity, double value, double limit) {
+    return Validity{quantity, value, limit}.exceeded();
   };
-  EXPECT_TRUE(passed(ValidityQuantity::contact_radius, 0.31, 0.3));
-  EXPECT_FALSE(passed(ValidityQuantity::contact_radius, 0.29, 0.3));
-  EXPECT_TRUE(passed(ValidityQuantity::tabor, 4.1, 5.0));
-  EXPECT_FALSE(passed(ValidityQuantity::tabor, 13.0, 5.0));
-  EXPECT_TRUE(passed(ValidityQuantity::wave_transits, 4.2, 5.0));
+  EXPECT_TRUE(exceeded(ValidityQuantity::contact_radius, 0.31, 0.3));
+  EXPECT_FALSE(exceeded(ValidityQuantity::contact_radius, 0.29, 0.3));
+  EXPECT_TRUE(exceeded(ValidityQuantity::tabor, 4.1, 5.0));
+  EXPECT_FALSE(exceeded(ValidityQuantity::tabor, 13.0, 5.0));
+  EXPECT_TRUE(exceeded(ValidityQuantity::wave_transits, 4.2, 5.0));
 }
 
 TEST(Validity, AModelThatYieldsIsNotHeldAgainstAYieldPressure) {

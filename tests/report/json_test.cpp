@@ -120,10 +120,10 @@ TEST(JsonReport, SaysWhereTheModelHolds) {
   EXPECT_EQ(validity[0]["value"], 0.52);
   EXPECT_EQ(validity[0]["limit"], 0.3);
   EXPECT_EQ(validity[0]["limit_is"], "largest");
-  EXPECT_EQ(validity[0]["passed"], true);
+  EXPECT_EQ(validity[0]["exceeded"], true);
   EXPECT_THAT(validity[0]["text"].get<std::string>(), HasSubstr("0.52 of the sphere's radius"));
   EXPECT_EQ(validity[1]["limit_is"], "least");
-  EXPECT_EQ(validity[1]["passed"], false);
+  EXPECT_EQ(validity[1]["exceeded"], false);
 }
 
 TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
