@@ -249,7 +249,7 @@ void simulate(const SimulateOptions& options) {
   }
   print_impact(simulated, datasets[d], model.contacts[d], model.phase);
   print_text("{}", terminal_text(validity_table(simulated.validity), indent));
-  for (const std::string& sentence : passed_limits(simulated.validity, {})) {
+  for (const std::string& sentence : exceeded_limits(simulated.validity, {})) {
     print_line("note: " + sentence);
   }
   if (!simulated.extended) {
