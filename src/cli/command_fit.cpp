@@ -12,7 +12,7 @@
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
 namespace {

@@ -12,7 +12,6 @@
 #include "data/datapackage.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
-#include "estimate/fit_keys.hpp"
 #include "estimate/fit_spec.hpp"
 #include "mechanism/mechanism.hpp"
 

@@ -12,8 +12,8 @@
 #include "coverage/simulated_impacts.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
-#include "estimate/simulated_observation.hpp"
 
 namespace recoil {
 namespace {

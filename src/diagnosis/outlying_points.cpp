@@ -9,7 +9,7 @@
 
 #include "core/numerics.hpp"
 #include "diagnosis/search.hpp"
-#include "estimate/leave_one_out.hpp"
+#include "estimate/fit.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {

@@ -11,7 +11,6 @@
 #include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
-#include "estimate/simulated_observation.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

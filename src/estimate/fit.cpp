@@ -1,25 +1,27 @@
 #include "estimate/fit.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <tuple>
 #include <utility>
 
+#include "core/numerics.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "estimate/constant_effects.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
 #include "estimate/shared_settings.hpp"
-#include "estimate/start_search.hpp"
-#include "estimate/weights.hpp"
 
 namespace recoil {
+
 namespace {
 
 // A chi-squared less likely than this under the stated noise widens every interval.
@@ -367,6 +369,228 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
     sum += squared_miss(data.points[points[k]], predictions[k].restitution_squared);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+namespace {
+
+// More points than this are searched by a part of them, half as many or fewer: the starts need a
+// rough answer each, and all points only the last steps.
+constexpr std::size_t many_points = 500;
+constexpr std::size_t searched_of_many = 250;
+
+/// Adds `first` with the damping factors ten times smaller and larger in all combinations: capture
+/// and strong damping make flat and non-convex regions on either side.
+void add_dampings(const ImpactModel& model, const std::vector<double>& first,
+                  std::vector<std::vector<double>>& starts) {
+  for (const double hertz : {0.1, 1.0, 10.0}) {
+    for (const double adhesion : {0.1, 1.0, 10.0}) {
+      if (hertz == 1.0 && adhesion == 1.0) continue;
+      std::vector<double> start = first;
+      bool moved = false;
+      for (std::size_t j = 0; j < start.size(); ++j) {
+        const ParameterSlot& slot = model.slots[j];
+        if (!slot.free || !slot.parameter->is_damping()) continue;
+        const double factor =
+            slot.parameter->role == ParameterRole::hertz_damping ? hertz : adhesion;
+        start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
+        moved = moved || start[j] != first[j];
+      }
+      if (moved) starts.push_back(std::move(start));
+    }
+  }
+}
+
+/// The stated start and other dampings; the same about the dampings of the catalogue, where the
+/// stated ones are more than ten times another; then what the catalogue of mechanisms advises, one
+/// parameter at a time.
+std::vector<std::vector<double>> starting_points(const ImpactModel& model,
+                                                 const std::vector<double>& first, bool several) {
+  std::vector<std::vector<double>> starts = {first};
+  if (!several) return starts;
+  add_dampings(model, first, starts);
+  std::vector<double> usual = first;
+  bool far = false;
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (!slot.free || !slot.parameter->is_damping()) continue;
+    usual[j] = std::clamp(slot.parameter->initial, slot.lower, slot.upper);
+    far = far || !(first[j] <= 10.0 * usual[j] && usual[j] <= 10.0 * first[j]);
+  }
+  if (far) {
+    starts.push_back(usual);
+    add_dampings(model, usual, starts);
+  }
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (!slot.free) continue;
+    for (const double value : slot.parameter->starts) {
+      if (value < slot.lower || value > slot.upper || value == first[j]) continue;
+      starts.push_back(first);
+      starts.back()[j] = value;
+    }
+  }
+  return starts;
+}
+
+/// Every n-th point, sorted by dataset, diameter and velocity.
+std::vector<std::size_t> spread_part(const std::vector<Observation>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    return std::tuple(points[i].dataset, points[i].diameter, points[i].velocity, i);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<std::size_t> part;
+  const std::size_t stride = points.size() / searched_of_many;
+  for (std::size_t k = stride / 2; k < order.size(); k += stride) part.push_back(order[k]);
+  return part;
+}
+
+/// The points that the starts use, where these are not all of `data`. A mean of survivors lies far
+/// above the curve until the scatter of the impacts is known, so points with rebounds and captures
+/// wait for `reweighted_fit`, if the others suffice.
+std::optional<Observations> searched_part(const Observations& data, std::ptrdiff_t free_count) {
+  const std::vector<bool> mixed = among_captures(data.points);
+  std::ptrdiff_t rebounds = 0;
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    if (!mixed[i] && !data.points[i].censored) ++rebounds;
+  }
+  const bool leave_mixed =
+      std::find(mixed.begin(), mixed.end(), true) != mixed.end() && rebounds > free_count;
+  const bool many = data.points.size() > many_points;
+  if (!leave_mixed && !many) return std::nullopt;
+  std::vector<std::size_t> used;
+  if (many) {
+    used = spread_part(data.points);
+  } else {
+    used.resize(data.points.size());
+    std::iota(used.begin(), used.end(), std::size_t{0});
+  }
+  if (leave_mixed) std::erase_if(used, [&](std::size_t i) { return mixed[i]; });
+  return data.subset(used);
+}
+
+/// Is the end of `run` another place than that of `best`, in its standard errors?
+bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& best) {
+  const std::size_t p = run.theta.size();
+  for (std::size_t j = 0; j < p; ++j) {
+    const double error = best.covariance.empty() ? 0.0 : std::sqrt(best.covariance[j * p + j]);
+    const double unit = error > 0.0 ? 0.1 * error : 1e-3 * std::abs(best.theta[j]);
+    if (std::abs(run.theta[j] - best.theta[j]) > unit) return true;
+  }
+  return false;
+}
+
+/// Goes on from where the iterations of a start ran out, if that is better than where any ended: by
+/// the other descent, and as long as it gains.
+void finish_promising(const LeastSquaresProblem& problem, LeastSquaresOptions options,
+                      std::vector<StartSummary>& starts, std::vector<StartLead>& ended) {
+  constexpr int most_descents = 5;
+  double least = INFINITY;
+  for (const StartLead& lead : ended) least = std::min(least, lead.run.sum_of_squares);
+  options.strategies = {Strategy::box_descent};
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    StartSummary& start = starts[k];
+    for (int round = 0; start.ending == DescentEnd::limit && round < most_descents; ++round) {
+      if (!(start.chi2 < least)) break;
+      LeastSquaresResult run = minimise(problem, start.end, options);
+      if (run.end == DescentEnd::no_answer || !(run.sum_of_squares < start.chi2 || run.ended()))
+        break;
+      start = {start.start, run.theta, run.sum_of_squares, run.end, run.message};
+      if (!run.ended()) continue;
+      least = std::min(least, run.sum_of_squares);
+      ended.push_back({k, std::move(run)});
+    }
+  }
+}
+
+}  // namespace
+
+StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
+                               const std::vector<double>& first, bool several,
+                               LeastSquaresOptions options) {
+  StartSearch search;
+  const std::optional<Observations> part = searched_part(data, model.free_count());
+  const Observations& seen = part ? *part : data;
+  search.points = seen.points.size();
+  search.sampled = data.points.size() > many_points;
+  const LeastSquaresProblem problem = impact_problem(model, seen, &search.handovers);
+  options.finish = false;  // only the best
+  std::vector<StartLead> ended;
+  for (const std::vector<double>& start : starting_points(model, first, several)) {
+    LeastSquaresResult run = minimise(problem, start, options);
+    search.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
+    if (run.ended()) ended.push_back({search.starts.size() - 1, std::move(run)});
+  }
+  finish_promising(problem, options, search.starts, ended);
+  if (ended.empty()) return search;
+  const auto best =
+      std::min_element(ended.begin(), ended.end(), [](const StartLead& a, const StartLead& b) {
+        return a.run.sum_of_squares < b.run.sum_of_squares;
+      });
+  std::iter_swap(ended.begin(), best);
+  search.leads.push_back(std::move(ended.front()));
+  if (!search.sampled) return search;
+  // Sums of squares that differ by D on average do so with a standard deviation of 2 sqrt(D): for
+  // the one that all points make the larger to be ahead by so much here takes seven of these.
+  constexpr double telling = 50.0;
+  const double least = search.leads.front().run.sum_of_squares;
+  const double noise = std::max(1.0, least / static_cast<double>(problem.residual_count));
+  for (std::size_t k = 1; k < ended.size(); ++k) {
+    const LeastSquaresResult& run = ended[k].run;
+    if (run.end == DescentEnd::flat || run.sum_of_squares > least + telling * noise) continue;
+    const bool is_new =
+        std::all_of(search.leads.begin(), search.leads.end(),
+                    [&](const StartLead& lead) { return ends_elsewhere(run, lead.run); });
+    if (is_new) search.leads.push_back(std::move(ended[k]));
+  }
+  return search;
+}
+
+namespace {
+
+constexpr double stated_level = 0.05;
+constexpr double estimated_level = 0.01;
+constexpr double rejected = 0.05;  // p-value of a fit
+constexpr double fixed = 1e-9;     // 1 - h of a point that alone determines a parameter
+
+}  // namespace
+
+std::optional<OddPoint> odd_point(const FitResult& fitted) {
+  gsl_errors_are_values();
+  const bool stated = fitted.data.sd_stated;
+  const std::size_t n = fitted.data.points.size();
+  if (!fitted.usable || !fitted.data.noise.known || fitted.data.noise.student) return {};
+  if (fitted.dof < 3 || (stated && fitted.p_value >= rejected)) return {};
+  const double square = std::inner_product(fitted.residuals.begin(), fitted.residuals.end(),
+                                           fitted.residuals.begin(), 0.0);
+  OddPoint odd;
+  double most = 0.0;  // r^2 / (1 - h)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double rest = 1.0 - fitted.leverage[i];
+    if (fitted.data.points[i].censored || !(rest > fixed)) continue;
+    const double gain = fitted.residuals[i] * fitted.residuals[i] / rest;
+    if (!(gain > most)) continue;
+    most = gain;
+    odd.index = i;
+  }
+  const double left = fitted.dof - 1.0;
+  const double scale = stated ? 1.0 : std::sqrt(std::max(0.0, square - most) / left);
+  if (!(most > 0.0)) return {};
+  odd.residual = std::copysign(std::sqrt(most) / scale, fitted.residuals[odd.index]);
+  const double tail = stated ? gsl_cdf_ugaussian_Q(std::abs(odd.residual))
+                             : gsl_cdf_tdist_Q(std::abs(odd.residual), left);
+  if (2.0 * tail * static_cast<double>(n) > (stated ? stated_level : estimated_level)) return {};
+  std::vector<std::size_t> others(n);
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(odd.index));
+  FitOptions options;
+  options.several_starts = false;
+  options.start = fitted.theta;
+  odd.without = fit(fitted.model, fitted.data.subset(others), options);
+  if (!odd.without.usable || (stated && odd.without.p_value < rejected)) return {};
+  return odd;
 }
 
 }  // namespace recoil

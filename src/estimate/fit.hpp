@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -123,5 +124,43 @@ std::vector<std::size_t> held_back_dampings(const FitResult& fitted);
 /// captured points count with e = 0, means of survivors beside `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
                         const Observations& data, const std::vector<std::size_t>& subset = {});
+
+/// Where a start ended that may lead to the best fit.
+struct StartLead {
+  std::size_t start = 0;  ///< its place among the starts
+  LeastSquaresResult run;
+};
+
+/// What the descents from several starts found.
+struct StartSearch {
+  std::vector<StartSummary> starts;
+  std::size_t points = 0;  ///< that they saw
+  bool sampled = false;    ///< these were drawn from very many
+  /// The best of them, and where the points were sampled all that end elsewhere with a sum of
+  /// squares that these points cannot tell from the smallest. None where no descent ended.
+  std::vector<StartLead> leads;
+  long handovers = 0;  ///< impacts that the fast solver left to the reference
+};
+
+/// Descends from `first` and, with `several`, from the places about it where other minima are
+/// known to lie.
+StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
+                               const std::vector<double>& first, bool several,
+                               LeastSquaresOptions options);
+
+/// A point without which the others fit.
+struct OddPoint {
+  std::size_t index = 0;  ///< among the observations
+  double residual = 0.0;  ///< from what the others predict, in standard deviations
+  FitResult without;      ///< the fit to the others
+};
+
+/// The point whose removal mends a fit. None unless more than one degree of freedom is left without
+/// it, and it lies further from what the others predict than one of all points does in one of
+/// twenty data sets (Bonferroni), by its residual r and leverage h: r / sqrt(1 - h) where standard
+/// deviations are stated, else the externally studentised r / (s_(i) sqrt(1 - h)) (Cook & Weisberg
+/// 1982, Residuals and Influence in Regression, section 2.2), at one of a hundred. Where they are
+/// stated, the fit to all has to be rejected at 5 %, and the fit to the others not.
+std::optional<OddPoint> odd_point(const FitResult& fitted);
 
 }  // namespace recoil

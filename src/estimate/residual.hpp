@@ -2,10 +2,25 @@
 
 #include <optional>
 
+#include "core/random.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/student.hpp"
 
 namespace recoil {
+
+/// Mean, its derivative and variance of sqrt(u + z) given u + z > 0, z standard normal: the
+/// restitution of spheres that were not captured, in units of sqrt(scatter), where u is the
+/// predicted e^2 in units of the scatter of e^2 from impact to impact.
+///   G(u) = E[sqrt(u + z) | u + z > 0],  G' = E[(u + z)^(3/2) | .] - (u + lambda) G,
+///   Var = u + lambda - G^2,  lambda = phi(u) / Phi(u).
+/// To 1e-9 relative at any u: the trapezoid rule in sqrt(u + z), whose integrand is even and
+/// analytic, interpolated from a table above u = -12, and the asymptotic series above u = 12.
+struct RootMoments {
+  double mean = 0.0;
+  double slope = 0.0;  ///< d mean / d u
+  double variance = 0.0;
+};
+RootMoments root_of_positive_normal(double u);
 
 /// The weighted residual of one point and its derivative with respect to the predicted e^2: the
 /// signed root of its deviance, r = sign(m_best - m) sqrt(D(m) - D(m_best)), so that the sum of r^2
@@ -54,5 +69,29 @@ double survivors_sd(const Observation& point, double restitution_squared);
 /// What the mean e of the rebounds of this point should be where the model predicts
 /// `restitution_squared`: sqrt(e^2), or the mean of the survivors [1].
 double expected_restitution(const Observation& point, double restitution_squared);
+
+/// The captures among the impacts of a point with scatter, drawn anew by the binomial quantile of
+/// `uniform` where the truth is `restitution_squared`, with the sd that a mean of this many
+/// rebounds has; its mean is left to the caller.
+Observation redraw_captures(const Observation& point, double restitution_squared, double uniform);
+
+/// Of the error that a point has for itself: 0 for a bounce whose error `draw_setting_errors`
+/// draws.
+inline double own_noise_scale(const Observation& point, double noise_scale) {
+  return point.launch == Observation::no_launch ? noise_scale : 0.0;
+}
+
+/// A point measured anew under the noise that weights it, where the truth is `restitution_squared`:
+/// - a mean of rebounds gets an e^2 shifted by input_sd z_1 and a mean about its root by sd
+///   `noise_scale` z_2 (Student's t in place of z_2 where `student` says so), not below 0;
+/// - where impacts differ (scatter), the captures among its events are drawn from the binomial
+///   distribution and the survivors' mean about its expectation, with the sd that this many have; a
+///   point may so become captured altogether, or a captured one rebound;
+/// - a captured point without scatter stays captured.
+/// Draws three numbers from `random`, whatever happens. The weights of the result are those of
+/// `point`; `renew_weights` renews them.
+Observation simulate_observation(const Observation& point, double restitution_squared,
+                                 double noise_scale, const std::optional<StudentNoise>& student,
+                                 RandomStream& random);
 
 }  // namespace recoil

@@ -12,7 +12,7 @@
 #include "core/numerics.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
-#include "estimate/survivors.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {

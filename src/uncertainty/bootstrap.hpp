@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -7,11 +8,16 @@
 #include "core/resumable.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
-#include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/capture_interval.hpp"
 #include "uncertainty/resample.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
+
+/// Finds out which data made the replicates of `index` fail: the points whose mean disturbance in
+/// them is furthest, in its standard errors, from that in the other replicates below `replicates`.
+FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed, int replicates,
+                                 std::vector<std::uint64_t> index);
 
 /// One bootstrap of a fit, which can be extended. A replicate is a pure function of (seed, index):
 /// the number of batches, threads and interruptions changes no digit.

@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "estimate/capture_velocity.hpp"
-#include "estimate/constant_effects.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "uncertainty/refit.hpp"
+#include "uncertainty/profile.hpp"
 
 namespace recoil {
 namespace {

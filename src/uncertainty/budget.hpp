@@ -8,7 +8,7 @@
 
 #include "core/names.hpp"
 #include "estimate/fit.hpp"
-#include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/capture_interval.hpp"
 
 namespace recoil {
 

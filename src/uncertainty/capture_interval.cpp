@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "estimate/capture_velocity.hpp"
-#include "uncertainty/replicate_errors.hpp"
+#include "uncertainty/resample.hpp"
 
 namespace recoil {
+
 namespace {
 
 /// ln V* / V*_1 under every variance function of the noise, V*_1 being that of the first.

@@ -1,15 +1,88 @@
 #include "uncertainty/parameter_intervals.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "estimate/reweighting.hpp"
 #include "uncertainty/bootstrap.hpp"
+#include "uncertainty/interval.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/profile.hpp"
-#include "uncertainty/recommend.hpp"
 
 namespace recoil {
+
+namespace {
+
+constexpr double negligible = 1e-3;  // weight
+constexpr double plausible = 0.05;
+
+double total_criterion(const VarianceCandidate& candidate) {
+  return candidate.criterion + penalty_of(candidate.function);
+}
+
+}  // namespace
+
+std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
+  std::vector<NoiseAlternative> alternatives = {{1.0, fitted}};
+  const NoiseModel& noise = fitted.data.noise;
+  double least = INFINITY;
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    least = std::min(least, total_criterion(candidate));
+  }
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    const double weight = std::exp(-0.5 * (total_criterion(candidate) - least));
+    if (candidate.function == noise.variance) {
+      alternatives.front().weight = weight;
+      continue;
+    }
+    if (weight < negligible) continue;
+    Observations data = fitted.data;
+    data.spec.variance = candidate.function;
+    data.noise.variance = candidate.function;
+    data.noise.scale = candidate.scale;
+    data.noise.candidates.clear();
+    FitResult other =
+        fit(fitted.model, data, {.several_starts = false, .start = fitted.theta, .minimiser = {}});
+    if (other.usable) alternatives.push_back({weight, std::move(other)});
+  }
+  double sum = 0.0;
+  for (const NoiseAlternative& alternative : alternatives) sum += alternative.weight;
+  for (NoiseAlternative& alternative : alternatives) alternative.weight /= sum;
+  return alternatives;
+}
+
+std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
+                                    std::size_t j) {
+  std::vector<WaldTerm> terms;
+  for (const NoiseAlternative& alternative : alternatives) {
+    const FitResult& fitted = alternative.fitted;
+    terms.push_back(
+        {alternative.weight, fitted.theta[j], fitted.std_error[j], fitted.quantile_dof});
+  }
+  return terms;
+}
+
+double undecided_factor(const std::vector<WaldTerm>& terms) {
+  double least = INFINITY;
+  double most = 0.0;
+  for (const WaldTerm& term : terms) {
+    if (term.weight < plausible || !(term.std_error > 0.0)) continue;
+    least = std::min(least, term.std_error);
+    most = std::max(most, term.std_error);
+  }
+  return most > 0.0 ? most / least : 1.0;
+}
+
+Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
+                         double level) {
+  const ParameterSlot& slot = alternatives.front().fitted.model.slots[j];
+  return averaged_wald_interval(terms_of_slot(alternatives, j), level, slot.lower, slot.upper);
+}
+
 namespace {
 
 /// Percentile, BCa and studentized intervals of slot j; no intervals when too many refits failed.
@@ -100,6 +173,140 @@ std::optional<ConditionalFit> conditional_fit(const FitResult& fitted, double le
   std::vector<IntervalSet> intervals =
       likelihood_intervals(noise_alternatives(exact), level, threads);
   return ConditionalFit{std::move(exact), std::move(intervals)};
+}
+
+namespace {
+
+constexpr double clear_difference = 0.15;  // of the recommended width
+constexpr double many_at_bound = 0.05;
+constexpr double coupled = 0.5;  // correlation at which another parameter's bound is felt
+constexpr double clear_acceleration = 0.05;
+constexpr double clear_bias = 0.15;
+constexpr double clear_asymmetry = 1.25;
+constexpr double clear_student = 1.1;
+
+/// The larger distance of the two ends from those of `reference`, over its width, less what chance
+/// can do (two Monte-Carlo errors).
+double difference(const Interval& interval, const Interval& reference) {
+  const double width = *reference.upper - *reference.lower;
+  if (!(width > 0.0)) return 0.0;
+  const double low =
+      std::abs(*interval.lower - *reference.lower) -
+      2.0 * (interval.lower_error.value_or(0.0) + reference.lower_error.value_or(0.0));
+  const double high =
+      std::abs(*interval.upper - *reference.upper) -
+      2.0 * (interval.upper_error.value_or(0.0) + reference.upper_error.value_or(0.0));
+  return std::max(low, high) / width;
+}
+
+/// Correlation of two free parameters; 0 where either has no error.
+double correlation_of(const FitResult& fitted, std::size_t a, std::size_t b) {
+  const double scale = fitted.std_error[a] * fitted.std_error[b];
+  if (fitted.covariance.empty() || !(scale > 0.0)) return 0.0;
+  return fitted.covariance[a * fitted.theta.size() + b] / scale;
+}
+
+std::optional<Disagreement::OnBound> replicates_on_bound(const FitResult& fitted, std::size_t slot,
+                                                         const std::vector<IntervalSet>& sets) {
+  const double own = sets[slot].bound_share.value_or(0.0);
+  if (own > many_at_bound) return Disagreement::OnBound{slot, own, 1.0};
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    const double share = sets[j].bound_share.value_or(0.0);
+    const double r = j == slot ? 0.0 : correlation_of(fitted, slot, j);
+    if (share > many_at_bound && std::abs(r) > coupled) return Disagreement::OnBound{j, share, r};
+  }
+  return std::nullopt;
+}
+
+std::optional<Disagreement::Ridge> ridge_of(const FitResult& fitted, std::size_t slot) {
+  Disagreement::Ridge ridge{slot, 0.0};
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const double r = j == slot ? 0.0 : correlation_of(fitted, slot, j);
+    if (std::abs(r) > std::abs(ridge.correlation)) ridge = {j, r};
+  }
+  if (std::abs(ridge.correlation) <= strong_correlation) return std::nullopt;
+  return ridge;
+}
+
+/// See `Disagreement::arms`.
+std::optional<double> skewed_arms(const Interval& profile, double estimate) {
+  if (!profile.available() || profile.shape != ProfileShape::bounded) return std::nullopt;
+  const double up = *profile.upper - estimate;
+  const double down = estimate - *profile.lower;
+  if (!(down > 0.0)) return std::nullopt;
+  if (up / down > clear_asymmetry || down / up > clear_asymmetry) return up / down;
+  return std::nullopt;
+}
+
+std::optional<Disagreement::FewPoints> few_points_of(const FitResult& fitted, double level) {
+  if (fitted.quantile_dof == 0) return std::nullopt;
+  const double p = 0.5 + level / 2.0;
+  const double ratio = gsl_cdf_tdist_Pinv(p, fitted.quantile_dof) / gsl_cdf_ugaussian_Pinv(p);
+  if (ratio <= clear_student) return std::nullopt;
+  return Disagreement::FewPoints{fitted.quantile_dof, ratio};
+}
+
+}  // namespace
+
+void recommend(IntervalSet& set, bool sd_stated) {
+  if (set[IntervalKind::profile].available()) {
+    set.recommended = IntervalKind::profile;
+    set.because =
+        sd_stated ? RecommendedBecause::noise_stated : RecommendedBecause::noise_estimated;
+    return;
+  }
+  set.recommended =
+      set[IntervalKind::percentile].available() ? IntervalKind::percentile : IntervalKind::wald;
+  set.because = RecommendedBecause::no_profile;
+}
+
+std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::size_t slot,
+                                                 const std::vector<IntervalSet>& sets,
+                                                 double level) {
+  const IntervalSet& set = sets[slot];
+  const Interval& reference = recommended_interval(set);
+  if (!reference.available()) return std::nullopt;
+  Disagreement found;
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    if (!set[kind].available()) continue;
+    const double by = difference(set[kind], reference);
+    if (by > clear_difference) found.differing.push_back({kind, by});
+  }
+  if (found.differing.empty()) return std::nullopt;
+  found.estimate_at_bound = fitted.at_bound[slot];
+  if (!found.estimate_at_bound) found.on_bound = replicates_on_bound(fitted, slot, sets);
+  found.ridge = ridge_of(fitted, slot);
+  if (set.bca_constants) {
+    const auto [bias, acceleration] = *set.bca_constants;
+    if (std::abs(acceleration) > clear_acceleration) found.acceleration = acceleration;
+    if (std::abs(bias) > clear_bias) found.bias = bias;
+  }
+  found.arms = skewed_arms(set[IntervalKind::profile], fitted.theta[slot]);
+  found.few_points = few_points_of(fitted, level);
+  return found;
+}
+
+std::optional<double> bound_share(const BootstrapResult& boot, const ParameterSlot& slot,
+                                  std::size_t index) {
+  if (boot.theta.empty()) return std::nullopt;
+  std::size_t resting = 0;
+  for (const std::vector<double>& theta : boot.theta) {
+    if (theta[index] <= slot.lower || theta[index] >= slot.upper) ++resting;
+  }
+  return static_cast<double>(resting) / static_cast<double>(boot.theta.size());
+}
+
+void note_bounds(Interval& interval, const ParameterSlot& slot) {
+  if (!interval.available()) return;
+  const bool low = *interval.lower <= slot.lower;
+  const bool high = *interval.upper >= slot.upper;
+  if (low && high) {
+    interval.note = {Caution::spans_both_bounds, slot.lower};
+  } else if (low) {
+    interval.note = {Caution::begins_at_bound, slot.lower};
+  } else if (high) {
+    interval.note = {Caution::ends_at_bound, slot.upper};
+  }
 }
 
 }  // namespace recoil

@@ -8,7 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "estimate/constant_effects.hpp"
+#include "estimate/misfit.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {

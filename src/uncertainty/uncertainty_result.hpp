@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "estimate/leave_one_out.hpp"
+#include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/budget.hpp"
-#include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/capture_interval.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval.hpp"

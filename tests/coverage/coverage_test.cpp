@@ -11,10 +11,9 @@
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/profile.hpp"
-#include "uncertainty/replicate_errors.hpp"
+#include "uncertainty/resample.hpp"
 #include "validation/studies/coverage_grid.hpp"
 #include "validation/studies/independent_coverage.hpp"
 

@@ -11,7 +11,6 @@
 #include "estimate/fit.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
-#include "estimate/simulated_observation.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

@@ -7,8 +7,8 @@
 
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
+#include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
-#include "estimate/simulated_observation.hpp"
 #include "support/one_size.hpp"
 
 namespace recoil {

@@ -1,11 +1,11 @@
 // The restitution of spheres that were not captured, against quadrature and closed forms.
-#include "estimate/survivors.hpp"
-
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {

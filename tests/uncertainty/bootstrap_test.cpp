@@ -11,8 +11,7 @@
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/locate_failures.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {

@@ -1,7 +1,7 @@
 // The rule and the reasons of a disagreement, decided from numbers.
-#include "uncertainty/recommend.hpp"
-
 #include <gtest/gtest.h>
+
+#include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
 namespace {
