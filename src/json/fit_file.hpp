@@ -39,8 +39,8 @@ struct ValidityEntry {
   ValidityQuantity quantity = ValidityQuantity::contact_radius;
   std::optional<double> value;
   double limit = 0.0;
-  std::string limit_is;  ///< "least" or "largest" good value
-  bool exceeded = false;   ///< true where the limit is exceeded: the model does not hold
+  std::string limit_is;   ///< "least" or "largest" good value
+  bool exceeded = false;  ///< true where the limit is exceeded: the model does not hold
   OrAbsent<std::string> dataset;
   OrAbsent<double> diameter_um, incident_velocity;  ///< [um], [m/s]
   std::string text;

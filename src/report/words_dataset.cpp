@@ -215,7 +215,7 @@ std::string validity_sentence(const Validity& v) {
 }
 
 std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
-                                       const std::vector<Dataset>& datasets) {
+                                         const std::vector<Dataset>& datasets) {
   std::vector<const Validity*> worst;  // of each quantity
   for (const Validity& one : validity) {
     if (!one.exceeded()) continue;

@@ -40,7 +40,7 @@ std::string validity_sentence(const Validity& validity);
 
 /// The worst of those beyond each limit, with the dataset where there are several.
 std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
-                                       const std::vector<Dataset>& datasets);
+                                         const std::vector<Dataset>& datasets);
 
 /// Quantity, value and limit of one impact.
 Table validity_table(const std::vector<Validity>& validity);

@@ -523,8 +523,7 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
 /// What has the shape of the misfit, and why it is not believed all the same.
 std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
   const CandidateResult* const first = single_named(d, shown.causes.front());
-  const std::string shape =
-      fmt::format("The misfit resembles {}", titles_of(shown.causes, " or "));
+  const std::string shape = fmt::format("The misfit resembles {}", titles_of(shown.causes, " or "));
   return first == nullptr
              ? shape + ", which is not possible."
              : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",

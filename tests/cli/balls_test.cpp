@@ -172,10 +172,11 @@ TEST(BallsByHand, ThreeHeightsChooseTheLawOfLoss) {
       "h1,h2\n30,10.2\n30,11.0\n30,11.3\n30,10.5\n30,10.1\n60,21.6\n60,21.8\n60,22.1\n60,21.0\n"
       "60,21.0\n92,33.5\n92,33.4\n92,33.9\n92,33.6\n92,33.1\n",
       "drop_height=h1:cm,rebound_height=h2:cm", {"--rebound-error", "5mm", "--drop-error", "1mm"});
-  EXPECT_THAT(drops.answer_of("fit"),
-              AllOf(HasSubstr("No dependence of e on V is detected"), HasSubstr("Law of loss: constant"),
-                    HasSubstr("The model fits"), HasSubstr("hysteretic share"),
-                    Not(HasSubstr("C_H [s/m]")), Not(HasSubstr("yield"))));  // rubber does not flow
+  EXPECT_THAT(
+      drops.answer_of("fit"),
+      AllOf(HasSubstr("No dependence of e on V is detected"), HasSubstr("Law of loss: constant"),
+            HasSubstr("The model fits"), HasSubstr("hysteretic share"), Not(HasSubstr("C_H [s/m]")),
+            Not(HasSubstr("yield"))));  // rubber does not flow
   EXPECT_THAT(drops.answer_of("diagnose"), HasSubstr("describes these points"));
   // The mean of e^2 weighs like e: sqrt(sum h2 / sum h1) = sqrt(326.5 / 910).
   const Outcome exported = drops.run({"export", "ball.toml", "--to", "liggghts", "--out", "out"});
@@ -202,10 +203,9 @@ TEST(BallsByHand, SeriesThatDifferAreReported) {
       "cold,120,30\ncold,120,36\ncold,120,32\n",
       "series=s,drop_height=h1:cm,rebound_height=h2:cm", {"--rebound-error", "2cm"});
   for (const std::string command : {"fit", "diagnose"}) {
-    EXPECT_THAT(
-        drops.answer_of(command),
-        AllOf(HasSubstr("hot 0.838"), HasSubstr("room 0.749"), HasSubstr("cold 0.521"),
-              HasSubstr("The series differ in e (p < 1e-6): hot and cold by 0.32")));
+    EXPECT_THAT(drops.answer_of(command),
+                AllOf(HasSubstr("hot 0.838"), HasSubstr("room 0.749"), HasSubstr("cold 0.521"),
+                      HasSubstr("The series differ in e (p < 1e-6): hot and cold by 0.32")));
   }
   EXPECT_THAT(drops.read("ball/points.csv"), HasSubstr("cold"));
 }

@@ -37,9 +37,7 @@ bool may_include(const std::string& from, const std::string& target) {
 
 /// The files of the recipes that bring a truth and the tool's pairing together: the points of a
 /// recipe may come from simulated passages.
-bool pairs_passages(const std::string& file) {
-  return file.starts_with("recipe/reconstruction.");
-}
+bool pairs_passages(const std::string& file) { return file.starts_with("recipe/reconstruction."); }
 
 /// May `from`, a path from tests/validation, include `target`, a path from src or from tests? Truth
 /// is made by code that the fitter does not use, so that neither can hide the other's mistakes.

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
-#include "validation/recipe/reconstruction.hpp"
 #include "validation/recipe/plan.hpp"
+#include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
 namespace {
