@@ -358,6 +358,23 @@ TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
   }
 }
 
+TEST(Shards, ADiagnosisTakesWhatItsPointsCouldShowFromThem) {
+  const Workplace place;
+  spoil(place);
+  const Words command = {"diagnose", "fit.toml", "--seed", "3", "--rates", "2"};
+  const Outcome whole = place.run(with(command, {"--out", "whole"}));
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_NE(whole.out.find("simulated data sets)"), std::string::npos) << whole.out;
+  const auto answer = nlohmann::json::parse(place.read("whole/diagnosis.json"));
+  EXPECT_EQ(answer["own_design"]["false_alarms"]["datasets"], 2);
+  EXPECT_FALSE(place.read("whole/diagnosis.html").find("simulated data sets)") ==
+               std::string::npos);
+  run_shards(place, command, {1, 2}, 2, "parts");
+  const Outcome merged = place.run({"merge", "parts"});
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(place.read("parts/diagnosis.json"), place.read("whole/diagnosis.json"));
+}
+
 TEST(Shards, AStudyIsSharedDesignByDesign) {
   const support::TemporaryFolder kept;
   const fs::path program = fs::path(RECOIL_BINARY).parent_path() / "recoil_study";

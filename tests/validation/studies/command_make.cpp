@@ -101,7 +101,7 @@ StudyStamp StudyRun::stamp() const {
 void add_run_options(CLI::App& command, StudyRun& run) {
   command.add_option("--out", run.out, "write the result here (JSON), its page beside it");
   command.add_option("--keep", run.keep,
-                     "a folder for what is finished, from which a stopped study goes on");
+                     "folder for finished work; a stopped study continues from it");
   command.add_option("--threads", run.threads, "threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
 }

@@ -73,7 +73,7 @@ Table widths_of(const std::vector<ParameterCoverage>& rows) {
 
 Sentence truth_words(TruthOrigin origin) {
   return origin == TruthOrigin::recipe
-             ? "truth and noise from the recipe, another seed for each data set"
+             ? "truth and noise from the recipe, with a different seed for each data set"
              : "the fit's own estimate as truth, simulated independently of the fitter";
 }
 

@@ -86,7 +86,8 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesyste
 
 /// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
 /// answer in `keep` (when not empty), where the next run finds it.
-/// @param baseline ask the plain methods, too, of visible effects and where nothing is hidden
+/// @param baseline ask the plain methods, too, of visible effects and of every fourth data set with
+/// nothing hidden
 Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
              const std::filesystem::path& keep, bool baseline = false);
 
