@@ -10,6 +10,7 @@
 #include "data/dataset.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/resample.hpp"
 

@@ -12,7 +12,7 @@
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 namespace {

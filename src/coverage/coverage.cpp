@@ -14,6 +14,7 @@
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/posterior.hpp"
 #include "uncertainty/resample.hpp"

@@ -12,7 +12,7 @@
 #include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/interval.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 

@@ -1,6 +1,7 @@
 #include "estimate/reweighting.hpp"
 
 #include <Eigen/Dense>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/words_fit.hpp"
-#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/resumable.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/resample.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 

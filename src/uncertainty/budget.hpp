@@ -8,7 +8,7 @@
 
 #include "core/names.hpp"
 #include "estimate/fit.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 
 namespace recoil {
 

@@ -7,7 +7,6 @@
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
-
 namespace {
 
 /// ln V* / V*_1 under every variance function of the noise, V*_1 being that of the first.

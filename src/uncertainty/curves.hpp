@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/two_point_comparison.hpp"
 
 namespace recoil {

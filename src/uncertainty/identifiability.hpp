@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/information.hpp"
 #include "uncertainty/interval.hpp"
-#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 

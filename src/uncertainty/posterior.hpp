@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/chains.hpp"
 #include "uncertainty/interval.hpp"
-#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {

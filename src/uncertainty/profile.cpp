@@ -1,6 +1,7 @@
 #include "uncertainty/profile.hpp"
 
 #include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

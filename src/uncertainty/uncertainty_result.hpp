@@ -6,7 +6,7 @@
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/budget.hpp"
-#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval.hpp"

@@ -11,6 +11,7 @@
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/profile.hpp"
 #include "uncertainty/resample.hpp"

@@ -11,7 +11,7 @@
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {

@@ -1,4 +1,6 @@
 // The ways to see the noise: their weights, and when they leave an error undecided.
+#include "uncertainty/noise_alternatives.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include "core/random.hpp"
 #include "estimate/reweighting.hpp"
 #include "support/one_size.hpp"
-#include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
 namespace {

@@ -1,0 +1,77 @@
+#include "uncertainty/noise_alternatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/reweighting.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double negligible = 1e-3;  // weight
+constexpr double plausible = 0.05;
+
+double total_criterion(const VarianceCandidate& candidate) {
+  return candidate.criterion + penalty_of(candidate.function);
+}
+
+}  // namespace
+
+std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
+  std::vector<NoiseAlternative> alternatives = {{1.0, fitted}};
+  const NoiseModel& noise = fitted.data.noise;
+  double least = INFINITY;
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    least = std::min(least, total_criterion(candidate));
+  }
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    const double weight = std::exp(-0.5 * (total_criterion(candidate) - least));
+    if (candidate.function == noise.variance) {
+      alternatives.front().weight = weight;
+      continue;
+    }
+    if (weight < negligible) continue;
+    Observations data = fitted.data;
+    data.spec.variance = candidate.function;
+    data.noise.variance = candidate.function;
+    data.noise.scale = candidate.scale;
+    data.noise.candidates.clear();
+    FitResult other =
+        fit(fitted.model, data, {.several_starts = false, .start = fitted.theta, .minimiser = {}});
+    if (other.usable) alternatives.push_back({weight, std::move(other)});
+  }
+  double sum = 0.0;
+  for (const NoiseAlternative& alternative : alternatives) sum += alternative.weight;
+  for (NoiseAlternative& alternative : alternatives) alternative.weight /= sum;
+  return alternatives;
+}
+
+std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
+                                    std::size_t j) {
+  std::vector<WaldTerm> terms;
+  for (const NoiseAlternative& alternative : alternatives) {
+    const FitResult& fitted = alternative.fitted;
+    terms.push_back(
+        {alternative.weight, fitted.theta[j], fitted.std_error[j], fitted.quantile_dof});
+  }
+  return terms;
+}
+
+double undecided_factor(const std::vector<WaldTerm>& terms) {
+  double least = INFINITY;
+  double most = 0.0;
+  for (const WaldTerm& term : terms) {
+    if (term.weight < plausible || !(term.std_error > 0.0)) continue;
+    least = std::min(least, term.std_error);
+    most = std::max(most, term.std_error);
+  }
+  return most > 0.0 ? most / least : 1.0;
+}
+
+Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
+                         double level) {
+  const ParameterSlot& slot = alternatives.front().fitted.model.slots[j];
+  return averaged_wald_interval(terms_of_slot(alternatives, j), level, slot.lower, slot.upper);
+}
+
+}  // namespace recoil
