@@ -26,7 +26,7 @@ TEST(Predict, WritesThreeConventionsWithBands) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(run.err.empty()) << run.err;
   EXPECT_NE(run.out.find("synthetic"), std::string::npos);
-  EXPECT_NE(run.out.find("no --height was given; 1 mm"), std::string::npos);
+  EXPECT_NE(run.out.find("without --height, the 1 mm of"), std::string::npos);
   const auto json = nlohmann::json::parse(place.read("out/predict.json"));
   EXPECT_EQ(json["format_version"], 2);
   EXPECT_NEAR(json["sizes"]["d10_um"].get<double>(), 2.9, 1e-12);

@@ -70,6 +70,7 @@ FitResult fit_with(const fs::path& fit, const std::vector<std::string>& mechanis
   for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
   std::string text = recoil::read_text_file(fit);
   const std::string model = "[model]\n";
+  if (text.find(model) == std::string::npos) text.insert(text.find("[parameters]"), model + "\n");
   text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
   const fs::path changed = fs::path(fit).replace_extension(".with.toml");
   recoil::write_whole_file(changed, text);
