@@ -375,8 +375,8 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
-    diagnosis.answer = options.answer_alone ? Adequate{}
-                                            : Adequate{materials_explain(diagnosis), if_exact(base)};
+    diagnosis.answer =
+        options.answer_alone ? Adequate{} : Adequate{materials_explain(diagnosis), if_exact(base)};
   } else {
     diagnosis.answer = search(base, simulated, base_intervals, diagnosis);
   }

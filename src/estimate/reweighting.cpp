@@ -1,7 +1,6 @@
 #include "estimate/reweighting.hpp"
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>

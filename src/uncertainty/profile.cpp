@@ -1,7 +1,6 @@
 #include "uncertainty/profile.hpp"
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
