@@ -158,6 +158,12 @@ Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
   if (!data.setting_sd_estimated) return {};
   if (spare_settings(data, fitted.model.free_count()) > 0) {
+    // Without adhesion e hardly depends on V, and an error of V is one of e.
+    bool adheres = false;
+    for (std::size_t d = 0; d < fitted.model.contacts.size(); ++d) {
+      adheres = adheres || !without_adhesion(fitted.model, d);
+    }
+    if (!adheres) return {};
     std::map<std::size_t, double> velocity;  // of a setting
     for (const Observation& point : data.points) {
       if (velocity.try_emplace(point.setting, point.velocity).first->second != point.velocity) {
@@ -338,6 +344,15 @@ Sentence quality_words(const FitResult& f) {
              number(f.chi2, 4), f.dof, p);
 }
 
+namespace {
+
+/// The id of a law of loss as people write it.
+std::string loss_name(const std::string& id) {
+  return id == "hunt_crossley" ? "Hunt-Crossley" : id;
+}
+
+}  // namespace
+
 Sentence loss_words(const Analysis& a) {
   if (a.losses.empty()) return {};
   constexpr double as_good = 2.0;  // Burnham & Anderson 2002, section 2.6
@@ -345,10 +360,10 @@ Sentence loss_words(const Analysis& a) {
   std::vector<std::string> others;
   for (const LossFit& law : a.losses) {
     if (&law == &a.losses.front()) continue;
-    others.push_back(fmt::format("{} +{:.1f}", law.id, law.delta_aicc));
-    if (law.delta_aicc < as_good) equals.push_back(law.id);
+    others.push_back(fmt::format("{} +{:.1f}", loss_name(law.id), law.delta_aicc));
+    if (law.delta_aicc < as_good) equals.push_back(loss_name(law.id));
   }
-  std::string text = fmt::format("Law of loss: {}", a.spec.loss);
+  std::string text = fmt::format("Law of loss: {}", loss_name(a.spec.loss));
   if (!others.empty()) text += fmt::format(" (AICc of the others: {})", fmt::join(others, ", "));
   if (!equals.empty()) {
     text += fmt::format("; the points cannot distinguish it from {}", fmt::join(equals, ", "));
