@@ -156,9 +156,9 @@ TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
 
 TEST(Fit, ReferenceSolverAgrees) {
   const Workplace place;
-  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "fast", "--replicates", "39"}).status, 0);
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "fast", "--replicates", "0"}).status, 0);
   ASSERT_EQ(
-      place.run({"fit", "fit.toml", "--out", "slow", "--replicates", "39", "--solver", "reference"})
+      place.run({"fit", "fit.toml", "--out", "slow", "--replicates", "0", "--solver", "reference"})
           .status,
       0);
   const auto fast = nlohmann::json::parse(place.read("fast/fit.json"));

@@ -73,7 +73,7 @@ def furnish(folder):
     write_dataset(folder / "uncertain", POINTS, uncertain)
     for name in ("mine", "misfit", "uncertain"):
         (folder / f"{name}.toml").write_text(
-            f'dataset = "{name}"\n[uncertainty]\nreplicates = 39\n'
+            f'dataset = "{name}"\n[uncertainty]\nreplicates = 39\nown_design = false\n'
             + ("materials = false\n" if name == "misfit" else ""))  # else they take it up
     return folder
 
@@ -83,6 +83,14 @@ def place(tmp_path):
     """A folder with the shipped datasets and fits, and small ones: `mine` (two sizes), `misfit`
     (not as the model has it) and `uncertain` (a constant of the materials with an error)."""
     return furnish(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def fitted(tmp_path_factory):
+    """The fit of `mine.toml`, made once."""
+    import recoil
+
+    return recoil.fit(furnish(tmp_path_factory.mktemp("fitted")) / "mine.toml")
 
 
 @pytest.fixture(scope="session")
@@ -99,15 +107,20 @@ class Outcome:
         self.status, self.out, self.err = done.returncode, done.stdout, done.stderr
 
 
-@pytest.fixture
-def command(place):
-    """Runs recoil in `place`."""
+def command_in(folder):
+    """Runs recoil in `folder`."""
 
     def run(*words):
-        return Outcome(subprocess.run([BINARY, *map(str, words)], cwd=place, text=True,
+        return Outcome(subprocess.run([BINARY, *map(str, words)], cwd=folder, text=True,
                                       capture_output=True, stdin=subprocess.DEVNULL))
 
     return run
+
+
+@pytest.fixture
+def command(place):
+    """Runs recoil in `place`."""
+    return command_in(place)
 
 
 @pytest.fixture

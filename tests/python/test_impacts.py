@@ -8,8 +8,8 @@ import recoil
 
 
 @pytest.fixture
-def result(here):
-    return recoil.fit("mine.toml")
+def result(fitted):
+    return fitted
 
 
 def test_one_impact_is_the_commands(here, command, result):

@@ -6,7 +6,7 @@ import re
 
 import jsonschema
 import pytest
-from conftest import SOURCE
+from conftest import SOURCE, command_in, furnish
 
 RESULTS = {
     "fit": [
@@ -56,9 +56,11 @@ def validator(name):
     return jsonschema.Draft202012Validator(schema(name))
 
 
-@pytest.fixture
-def inputs(place, command):
-    """The files that some of the commands need."""
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """The files that the commands need, made once."""
+    place = furnish(tmp_path_factory.mktemp("json"))
+    command = command_in(place)
     head = 'dataset = "mine"\n[uncertainty]\nreplicates = 39\nown_design = false\n'
     (place / "maugis.toml").write_text(head + '[model]\nadhesion = "maugis"\n')
     (place / "posterior.toml").write_text(head + "posterior = true\n")
@@ -78,7 +80,7 @@ def inputs(place, command):
     rows = [r.split(",") for r in (place / "mine/points.csv").read_text().splitlines()]
     (place / "unstated/points.csv").write_text(
         "".join(",".join(r[:4] + r[5:]) + "\n" for r in rows))
-    (place / "unstated.toml").write_text('dataset = "unstated"\n[uncertainty]\nreplicates = 39\nown_design = false\n')
+    (place / "unstated.toml").write_text(head.replace("mine", "unstated"))
     for name, adhesion in (("one", "ring"), ("two", "jkr")):
         (place / f"{name}.toml").write_text(head + f'[model]\nadhesion = "{adhesion}"\n')
         (place / f"{name}.json").write_text(command("fit", f"{name}.toml", "--json").out)
@@ -86,11 +88,12 @@ def inputs(place, command):
     for i in range(60):  # down at 1 m/s, back at 0.8 m/s from a plane 1 mm above the surface
         rows += [f"{10 * i},1,50", f"{10 * i + 0.00225},-0.8,50"]
     (place / "events.csv").write_text("\n".join(rows) + "\n")
+    return place
 
 
 @pytest.mark.parametrize("name, words", [(n, w) for n in RESULTS for w in RESULTS[n]],
                          ids=lambda x: x if isinstance(x, str) else "-".join(x[:2]))
-def test_stdout_is_valid_json_and_nothing_else(inputs, command, name, words):
+def test_stdout_is_valid_json_and_nothing_else(command, name, words):
     done = command(*words, "--json")
     assert done.status == 0, done.err
     found = json.loads(done.out)
@@ -146,7 +149,7 @@ def test_a_schema_for_every_json_and_no_other():
     assert files == {f"{name}.schema.json" for name in RESULTS}
 
 
-def test_a_wrong_file_is_not_valid(inputs, command):
+def test_a_wrong_file_is_not_valid(command):
     good = json.loads(command("fit", "mine.toml", "--json").out)
     check = validator("fit")
     assert check.is_valid(good)
@@ -168,7 +171,7 @@ def test_a_wrong_file_is_not_valid(inputs, command):
     assert broken(lambda fit: fit["dataset"].update(sha256="abc"))
 
 
-def test_what_is_written_is_what_is_printed(inputs, command, place):
+def test_what_is_written_is_what_is_printed(command, place):
     printed = command("fit", "mine.toml", "--json", "--out", "written").out
     assert (place / "written/fit.json").read_text() == printed
     fit = "fits/dahneke1975-quartz.toml"
@@ -178,7 +181,7 @@ def test_what_is_written_is_what_is_printed(inputs, command, place):
 
 @pytest.mark.parametrize("version, words", [(0, "which is older"), (3, "which is newer"),
                                             (None, "states no format_version")])
-def test_another_format_version_is_said_in_one_line(inputs, command, place, version, words):
+def test_another_format_version_is_said_in_one_line(command, place, version, words):
     fit = json.loads((place / "one.json").read_text())
     fit["format_version"] = version
     if version is None:
