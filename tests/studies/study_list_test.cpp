@@ -58,6 +58,23 @@ TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
   EXPECT_TRUE(shows_results("tests/validation/studies/a_page.cpp"));
 }
 
+TEST_F(Tree, TheKeyChangesWithCodeAndNotWithItsComments) {
+  write("src/core/a.cpp", "/// Twice x.\nint f(int x) { return 2 * x; }  // twice\n");
+  const std::string first = key();
+  write("src/core/a.cpp", "/// x + x, as \"f\".\nint f(int x) {\n  return 2*x;\n}\n");
+  EXPECT_EQ(key(), first);
+  write("src/core/a.cpp", "int f(int x) { return 3 * x; }");
+  EXPECT_NE(key(), first);
+}
+
+TEST(Studies, CodeIsWhatStandsOutsideOfComments) {
+  EXPECT_EQ(code_of("int  x = 1'000; // y\nint z;"), "int x=1'000;int z;");
+  EXPECT_EQ(code_of(R"(f("a // b", '"', "\"//");  // c)"), R"(f("a // b",'"',"\"//");)");
+  EXPECT_EQ(code_of("g(R\"x(// \" )\" kept)x\") // gone"), "g(R\"x(// \" )\" kept)x\")");
+  EXPECT_EQ(code_of("return // the\nx"), "return x");
+  EXPECT_EQ(code_of("\"not closed // "), "\"not closed // ");
+}
+
 TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {
   write("src/core/a.cpp", "1");
   write("fits/a.toml", "1");

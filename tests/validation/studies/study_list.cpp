@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -32,9 +33,25 @@ Study designs_study(const std::string& name, const std::string& options) {
           "reports/" + name + ".json"};
 }
 
+/// The end of the string or character literal that begins at `begin`; one past its last character.
+std::size_t end_of_literal(std::string_view source, std::size_t begin) {
+  if (source[begin] == '"' && begin > 0 && source[begin - 1] == 'R') {
+    const std::size_t open = source.find('(', begin);
+    const std::string close = ")" + std::string(source.substr(begin + 1, open - begin - 1)) + "\"";
+    const std::size_t end = source.find(close, open);
+    return end == std::string_view::npos ? source.size() : end + close.size();
+  }
+  std::size_t end = begin + 1;
+  while (end < source.size() && source[end] != source[begin]) end += source[end] == '\\' ? 2 : 1;
+  return std::min(end + 1, source.size());
+}
+
 /// The text of a file and its place below `root`, so that neither can change unseen.
 std::string digest(const fs::path& root, const fs::path& file) {
-  return fs::relative(file, root).generic_string() + " " + sha256_hex(read_text_file(file)) + "\n";
+  const bool is_code = file.extension() == ".cpp" || file.extension() == ".hpp";
+  const std::string text = read_text_file(file);
+  return fs::relative(file, root).generic_string() + " " +
+         sha256_hex(is_code ? code_of(text) : text) + "\n";
 }
 
 template <class Chosen>
@@ -81,11 +98,37 @@ const Study& study_named(const std::string& name) {
                    near.empty() ? "take one of these" : fmt::format("did you mean '{}'?", near));
 }
 
+std::string code_of(std::string_view source) {
+  std::string code;
+  const auto is_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
+  bool apart = false;  // white space or a comment stands before the next character
+  for (std::size_t i = 0; i < source.size();) {
+    const char c = source[i];
+    std::size_t end = i + 1;
+    if (source.substr(i, 2) == "//") {
+      end = std::min(source.find('\n', i), source.size());
+      apart = true;
+    } else if (std::isspace(static_cast<unsigned char>(c))) {
+      apart = true;
+    } else {
+      const bool separates_digits = c == '\'' && !apart && i > 0 && is_word(source[i - 1]);
+      if ((c == '"' || c == '\'') && !separates_digits) end = end_of_literal(source, i);
+      if (apart && !code.empty() && is_word(code.back()) && is_word(c)) code += ' ';
+      code += source.substr(i, end - i);
+      apart = false;
+    }
+    i = end;
+  }
+  return code;
+}
+
 bool shows_results(const fs::path& source) {
   const std::string text = source.generic_string();
   const std::string name = source.stem().string();
-  constexpr std::array<std::string_view, 4> folders = {"src/document/", "src/plot/", "src/report/",
-                                                       "src/cli/"};
+  constexpr std::array<std::string_view, 5> folders = {"src/document/", "src/plot/", "src/report/",
+                                                       "src/cli/", "src/python/"};
   return std::any_of(folders.begin(), folders.end(),
                      [&](std::string_view folder) { return text.starts_with(folder); }) ||
          name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture");

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace recoil {
@@ -19,8 +20,11 @@ const std::vector<Study>& all_studies();
 const Study& study_named(const std::string& name);
 
 /// Changes with everything that a study's numbers depend on: the command, the fits, the data, and
-/// all sources below `root`/src and `root`/tests/validation that do not only show results.
+/// the code below `root`/src and `root`/tests/validation that does not only show results.
 std::string study_key(const std::filesystem::path& root, const std::string& command);
+
+/// C++ source without comments (`//`) and without the white space that has no meaning.
+std::string code_of(std::string_view source);
 
 /// Does this file, a path from the project's folder, only show results that others compute?
 bool shows_results(const std::filesystem::path& source);
