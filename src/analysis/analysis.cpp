@@ -129,11 +129,11 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
                                      {result.bootstrap.theta, level, threads});
   const auto& points = fitted.data.points;
   if (std::all_of(points.begin(), points.end(), [](const Observation& p) { return p.censored; })) {
-    result.two_point.clear();  // which takes two e
+    result.two_point.clear();  // it needs two measured e
   }
   if (std::all_of(points.begin(), points.end(),
                   [](const Observation& p) { return p.censored && !p.mixed(); })) {
-    // The parameters are those of the start, and so is what follows from them.
+    // The parameters still have their initial values, and so has everything that follows from them.
     limit_by_captures(fitted.data, result.capture);
     result.curves.clear();
     result.capture_budgets.clear();
@@ -167,7 +167,7 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
                                        analysis.spec.file.string(), analysis.fitted.failure));
   }
-  // An error that the settings share may be estimated by the fit.
+  // The fit may have estimated an error that the points of a setting share.
   require_scheme(analysis.spec, scheme, analysis.fitted.data);
   analysis.validity = fit_validity(analysis.fitted, analysis.datasets);
   return analysis;

@@ -20,29 +20,28 @@
 
 namespace recoil {
 
-/// The result of one fit with its uncertainty, and the only input of its page, its text and its
-/// JSON.
+/// The result of one fit with its uncertainty. Its page, its text and its JSON have no other input.
 struct Analysis {
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult fitted;
-  std::vector<Validity> validity;  ///< where the model holds, the worst point of each dataset
+  std::vector<Validity> validity;  ///< of the model, at the worst point of each dataset
   UncertaintyResult uncertainty;
-  std::vector<OwnCoverage> own_design;           ///< empty where it was not simulated
-  std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
-  std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
+  std::vector<OwnCoverage> own_design;           ///< empty if it was not simulated
+  std::vector<PolydispersePrediction> mixtures;  ///< for datasets with a size distribution
+  std::vector<CaptureComparison> captures;       ///< with older models; may be empty
   std::vector<LawFit> laws;     ///< the fit under its own law and others; may be empty
   std::vector<LossFit> losses;  ///< see FitInputs
 };
 
 /// A fit file and its datasets.
 struct FitInputs {
-  FitSpec spec;  ///< its loss of the dry contact is decided
+  FitSpec spec;  ///< with the chosen loss of the dry contact
   std::vector<Dataset> datasets;
-  std::vector<LossFit> losses = {};  ///< where the points chose it: every law, the best first
+  std::vector<LossFit> losses = {};  ///< if the points chose the loss: every law, the best first
 };
 
-/// What a caller may override in a fit file.
+/// Options that override the fit file.
 struct AnalysisOptions {
   std::optional<int> replicates;
   bool replicates_auto = false;
@@ -53,45 +52,45 @@ struct AnalysisOptions {
   std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
-/// Reads a fit file and every dataset that it names, and chooses the loss (`choose_loss`).
+/// Reads a fit file and its datasets, and chooses the loss (`choose_loss`).
 /// @throws InputError
 FitInputs load_inputs(const std::filesystem::path& fit_file);
 std::vector<Dataset> load_datasets(const FitSpec& spec);
 
 /// The whole pipeline for one fit: data, fit, uncertainty.
-/// @throws InputError when the bootstrap's scheme cannot draw from these data.
-/// @throws ComputationError when the fit has no usable answer.
+/// @throws InputError if the bootstrap's scheme cannot draw from these data
+/// @throws ComputationError if the fit has no usable result
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
 
 /// The pipeline up to the fit: `uncertainty` stays empty.
 /// @throws InputError, ComputationError as `analyse`
 Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options = {});
 
-/// `uncertainty` and `own_design` of an analysis that has its fit.
+/// Computes `uncertainty` and `own_design` of an analysis with a fit.
 void assess(Analysis& analysis, const UncertaintyOptions& options);
 
-/// Intervals, bootstrap, capture velocities, two points against all, identifiability, posterior,
+/// Intervals, bootstrap, capture velocities, two-point comparison, identifiability, posterior,
 /// budgets and curves of a fit.
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options);
 
-/// The bootstrap only, for bands of predictions: everything but `bootstrap`, `capture` and
-/// `options` stays empty.
+/// The bootstrap only, for bands of predictions: all members except `bootstrap`, `capture` and
+/// `options` stay empty.
 UncertaintyResult bootstrap_only(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                  const UncertaintyOptions& options);
 
-/// The options of the uncertainty stage: those of the fit file, unless `options` overrides them.
+/// The options of the uncertainty stage: those of the fit file, overridden by `options`.
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options);
 
-/// @throws InputError when `scheme` cannot draw from these data.
+/// @throws InputError if `scheme` cannot draw from these data
 void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data);
 
-/// Adds what only a report shows: the mixtures of the datasets that come with a size distribution,
+/// Adds the predictions that only a report shows: mixtures for datasets with a size distribution,
 /// and the older capture models.
 void add_predictions(Analysis& analysis);
 
-/// The index of the dataset named `id`; 0 when `id` is empty.
-/// @throws InputError when there is none
+/// The index of the dataset named `id`; 0 if `id` is empty.
+/// @throws InputError if there is no such dataset
 std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);
 
 }  // namespace recoil

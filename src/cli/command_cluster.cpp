@@ -18,7 +18,7 @@
 
 namespace recoil {
 
-/// What starts the shards.
+/// The system that starts the shards.
 enum class ClusterSystem { slurm, parallel };
 template <>
 struct NamesOf<ClusterSystem> {
@@ -29,12 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One command in shards.
+/// A command that runs in shards.
 struct ClusterJob {
   ClusterSystem system = ClusterSystem::slurm;
-  std::filesystem::path recoil;    ///< the program, as every machine finds it
-  std::filesystem::path where;     ///< the folder in which the command is given
-  std::filesystem::path folder;    ///< of parts, scripts and results, absolute
+  std::filesystem::path recoil;    ///< the program, under the same path on every machine
+  std::filesystem::path where;     ///< the working directory of the command
+  std::filesystem::path folder;    ///< for parts, scripts and results, absolute
   std::vector<std::string> words;  ///< "fit", "my.toml", ...
   std::size_t shards = 1;
   int cpus = 1;         ///< of each shard
@@ -144,7 +144,7 @@ std::optional<long> seconds_named(const std::string& text) {
   return 3600 * std::stol(part[1]) + 60 * std::stol(part[2]) + std::stol(part[3]);
 }
 
-/// The scripts of a job, to be read and edited.
+/// The scripts of a job.
 std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
   std::string words;
   for (const std::string& word : job.words) words += (words.empty() ? "" : " ") + shell_word(word);
@@ -198,8 +198,8 @@ struct ClusterFlags {
 
 const char* const shareable[] = {"fit", "coverage", "diagnose"};
 
-/// The words behind those of `cluster` itself: a command, or the fit file of
-/// the command fit.
+/// The command to run, from the words after the options of `cluster`: a command with its options,
+/// or only a fit file for the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
   if (words.empty()) {
     throw InputError({}, "there is no command to run", "a fit file or a command is missing",
@@ -217,8 +217,7 @@ std::vector<std::string> words_of_job(std::vector<std::string> words) {
   return words;
 }
 
-/// A mistake in the command or its files is told now, once, and not by every
-/// shard.
+/// Checks the command and its files now, so that not every shard reports a mistake.
 void require_valid(const std::vector<std::string>& words) {
   for (const char* own : {"--shard", "--out", "--threads"}) {
     if (std::any_of(words.begin(), words.end(), [own](const std::string& word) {
@@ -239,8 +238,7 @@ void require_valid(const std::vector<std::string>& words) {
   }
 }
 
-// Slurm's signal before the limit comes up to a minute early, and the shard
-// needs some time, too.
+// Slurm sends its signal before the limit up to a minute early, and the shard needs some time, too.
 constexpr long shortest_time = 600;  // [s]
 
 std::string complaint_about_time(const std::string& text) {
@@ -293,12 +291,11 @@ void add_cluster(Program& program) {
   const Command command = program.command(
       "cluster", "write scripts that run a command in shards on a cluster and merge the shards");
   command.footer(
-      "Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit "
-      "the\n"
-      "scripts. All machines must find the folder, the program and the data under the same paths.\n"
-      "\n"
-      "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
-      "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
+      R"(Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
+scripts. All machines must find the folder, the program and the data under the same paths.
+
+  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big
+  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big)");
   const auto flags = std::make_shared<ClusterFlags>();
   command.option("SYSTEM", flags->system, "slurm, or parallel (GNU parallel)")
       .required()

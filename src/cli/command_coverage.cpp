@@ -26,16 +26,16 @@ struct Options {
   ShardFlags shards;
 };
 
-/// Everything that is ready before the first data set is simulated.
+/// Everything that is prepared before the first data set is simulated.
 struct Prepared {
   FitSpec spec;
   std::vector<Dataset> datasets;
   CoverageOptions coverage;
   CoverageTruth truth;
-  Origin origin;  ///< of what is kept, and of the parts
+  Origin origin;  ///< of kept rows and parts
 };
 
-/// Not copied: the truth may refer to its specification.
+/// Returns a pointer, because the truth may refer to its specification.
 std::unique_ptr<Prepared> prepare(const Options& options) {
   auto ready = std::make_unique<Prepared>();
   FitInputs inputs = load_inputs(options.fit_file);
@@ -52,7 +52,7 @@ std::unique_ptr<Prepared> prepare(const Options& options) {
   return ready;
 }
 
-/// "95.0 % [92.1, 97.0]": the share with `share_limits`.
+/// "95.0 % [92.1, 97.0]": a share with its `share_limits`.
 std::string percentage(int part, int whole) {
   if (whole == 0) return "-";
   const ShareLimits limits = share_limits(part, whole);
@@ -66,7 +66,7 @@ std::string truth_words(TruthOrigin origin) {
              : "the fit's own estimate as truth, simulated independently of the fitter";
 }
 
-/// The coverage of one fit as a Markdown table with a sentence on how it was measured.
+/// The coverage of one fit as a Markdown table, with a description of the simulation.
 std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
                               const CoverageOptions& options) {
   std::string text = fmt::format(
@@ -143,16 +143,14 @@ void add_coverage(Program& program) {
   const Command command =
       program.command("coverage", "measure how often the intervals contain the truth");
   command.footer(
-      "Simulates data sets of the same design with the fitted values as the truth, fits each of "
-      "them,\n"
-      "and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C "
-      "keeps\n"
-      "finished work, and the same command then continues.\n"
-      "\n"
-      "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n"
-      "\n"
-      "The study program covers grids of designs and several fits: ./run study, or\n"
-      "recoil_study --help.");
+      R"(Simulates data sets of the same design with the fitted values as the truth, fits each of them,
+and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
+finished work, and the same command then continues.
+
+  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md
+
+The study program covers grids of designs and several fits: ./run study, or
+recoil_study --help.)");
   const auto options = std::make_shared<Options>();
   add_fit_file(command, options->fit_file);
   command.option("--datasets", options->datasets, "simulated data sets")

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <memory>
@@ -35,15 +34,15 @@ struct DiagnoseFlags {
   }
 };
 
-/// Where the data sets of the calibration come from.
+/// The origin of the calibration's data sets.
 Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs,
                              const Calibration& calibration) {
   return flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed,
                              calibration.pieces(), calibration.digits());
 }
 
-/// Finds what the design of `diagnosis` could have shown; of a shard, runs its share of that.
-/// @returns what is kept until the result is written; null of a shard
+/// Measures the error rates of the diagnosis for the design; a shard only runs its pieces.
+/// @returns the rows to keep until the result is written; null for a shard
 std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInputs& inputs,
                                         Diagnosis& diagnosis) {
   const DesignRates rates(diagnosis, flags.rates);
@@ -87,8 +86,8 @@ std::filesystem::path result_in(const std::filesystem::path& folder) {
   return folder / "diagnosis.json";
 }
 
-/// The pieces of the diagnosis to go on from: of a merge the data sets of its
-/// calibration, unless its parts are those of the rates.
+/// The finished pieces of an earlier run of the diagnosis. For a merge they are the data sets of
+/// the calibration, unless the parts belong to the rates.
 std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
   if (flags.out.empty() || (flags.shards.merging() && flags.rates > 0)) {
     return std::make_shared<KeptRows>();
@@ -139,21 +138,18 @@ void add_diagnose(Program& program) {
   const Command command = program.command(
       "diagnose", "find what the model gets wrong and why, and what an extended model gains");
   command.footer(
-      "Tests the residuals of the fit for structure and tries every mechanism of the catalogue, "
-      "alone\n"
-      "and in pairs. The verdict is one of\n"
-      "  adequate        the residuals show no structure\n"
-      "  cause_named     exactly one cause of the catalogue explains the misfit\n"
-      "  not_separable   several causes explain it; recoil lists them and proposes an experiment\n"
-      "  unexplained     no cause of the catalogue explains it, or the errors are larger than "
-      "stated\n"
-      "With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a "
-      "fit\n"
-      "file of the extended model). Ctrl-C keeps finished work in DIR; the same command then\n"
-      "continues.\n"
-      "\n"
-      "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
-      "  recoil fit diagnosis/extended.toml");
+      R"(Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
+and in pairs. The verdict is one of
+  adequate        the residuals show no structure
+  cause_named     exactly one cause of the catalogue explains the misfit
+  not_separable   several causes explain it; recoil lists them and proposes an experiment
+  unexplained     no cause of the catalogue explains it, or the errors are larger than stated
+With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a fit
+file of the extended model). Ctrl-C keeps finished work in DIR; the same command then
+continues.
+
+  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis
+  recoil fit diagnosis/extended.toml)");
   const auto flags = std::make_shared<DiagnoseFlags>();
   add_fit_file(command, flags->fit);
   command.option("--out", flags->out, "folder for the results (default: nothing is written)")

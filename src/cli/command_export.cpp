@@ -33,7 +33,7 @@ struct ExportOptions {
   AnalysisFlags analysis;
 };
 
-/// A model with its values, and what is known of them.
+/// A model with its fitted values and their source.
 struct Fitted {
   ImpactModel model;
   std::vector<double> theta;
@@ -89,7 +89,7 @@ Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
   return out;
 }
 
-/// @throws InputError where every impact was captured: the values are where the fit began
+/// @throws InputError if every impact was captured, because the fit then has its initial values
 void require_rebounds(const Dataset& dataset) {
   if (std::any_of(dataset.points.begin(), dataset.points.end(),
                   [](const ImpactPoint& point) { return !point.all_captured(); })) {
@@ -119,11 +119,7 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
   } else {
     request.slowest = options.velocity[0];
     request.fastest = options.velocity[1];
-    if (!(request.slowest < request.fastest)) {
-      throw InputError(
-          {}, fmt::format("--velocity {:g},{:g} is not a range", request.slowest, request.fastest),
-          "the first number must be the smaller one", "for example --velocity 1,50");
-    }
+    require_range(options.velocity);
   }
   const std::vector<double> sizes = distinct_diameters(dataset);
   request.diameter =
@@ -136,7 +132,7 @@ bool holds_all_sizes(ExportTarget target) {
          target == ExportTarget::table;
 }
 
-std::vector<ExportedFile> files_for(ExportTarget target, const ExportJob& job) {
+std::vector<WholeFile> files_for(ExportTarget target, const ExportJob& job) {
   switch (target) {
     case ExportTarget::lammps:
       return lammps_files(job);
@@ -154,8 +150,8 @@ std::vector<ExportedFile> files_for(ExportTarget target, const ExportJob& job) {
   return {};
 }
 
-std::vector<ExportedFile> table_files(const Fitted& fitted, const ExportRequest& request,
-                                      const std::vector<double>& sizes, int threads) {
+std::vector<WholeFile> table_files(const Fitted& fitted, const ExportRequest& request,
+                                   const std::vector<double>& sizes, int threads) {
   const std::vector<TabulatedSize> table =
       restitution_table(fitted.model, fitted.theta,
                         {request.dataset, sizes, request.slowest, request.fastest,
@@ -163,14 +159,12 @@ std::vector<ExportedFile> table_files(const Fitted& fitted, const ExportRequest&
   return {{"restitution.csv", csv_restitution(table)}, {"capture.csv", csv_captures(table)}};
 }
 
-/// Of those that hold a table of e(V, d) there is none.
+/// @throws InputError if --stock is given for a target that gets a table of e(V, d)
 void require_stock_model(const ExportOptions& options, ExportTarget target) {
   if (!options.stock || !holds_all_sizes(target)) return;
   throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
                    "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
-
-void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
 
 void run_export(const ExportOptions& options) {
   const ExportTarget target = *value_named<ExportTarget>(options.to);
@@ -208,14 +202,11 @@ void run_export(const ExportOptions& options) {
                            {d, {sizes.front(), sizes.back()}, request.slowest, request.fastest});
   }
   job.heading = export_heading(target, fitted.source, job);
-  const std::vector<ExportedFile> files =
-      target == ExportTarget::table ? table_files(fitted, request, sizes, options.analysis.threads)
-                                    : files_for(target, job);
-  std::vector<WholeFile> whole;
-  for (const ExportedFile& file : files) {
-    whole.push_back({std::filesystem::path(options.out) / file.name, file.text});
-  }
-  write_whole_files(whole);
+  std::vector<WholeFile> files = target == ExportTarget::table
+                                     ? table_files(fitted, request, sizes, options.analysis.threads)
+                                     : files_for(target, job);
+  for (WholeFile& file : files) file.path = options.out / file.path;
+  write_whole_files(files);
 
   for (const std::string& line : job.heading) print_text("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
@@ -227,9 +218,7 @@ void run_export(const ExportOptions& options) {
         "note: the table has no bands, because bands need the bootstrap; leave --parameters out to "
         "get them");
   }
-  for (const ExportedFile& file : files) {
-    print_text("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
-  }
+  for (const WholeFile& file : files) print_text("written: {}\n", file.path.string());
   print_text("use: {}\n", export_use(target));
 }
 
@@ -239,15 +228,13 @@ void add_export(Program& program) {
   const Command command = program.command(
       "export", "write a fitted impact as input for another program, or as a table");
   command.footer(
-      "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and\n"
-      "YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its "
-      "own\n"
-      "contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) "
-      "with\n"
-      "captures. Every file states what it leaves out.\n"
-      "\n"
-      "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
-      "  lmp -in my-lammps/impact.lammps -var V 2.4");
+      R"(Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
+YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its own
+contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) with
+captures. Every file states what it leaves out.
+
+  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps
+  lmp -in my-lammps/impact.lammps -var V 2.4)");
   const auto options = std::make_shared<ExportOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--to", options->to, "the program").required().one_of(all_names<ExportTarget>());

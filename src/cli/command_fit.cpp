@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -77,12 +76,11 @@ void add_fit(Program& program) {
   const Command command =
       program.command("fit", "fit all points, with intervals and the two-point comparison");
   command.footer(
-      "Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the\n"
-      "data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in "
-      "DIR;\n"
-      "the same command then continues.\n"
-      "\n"
-      "  recoil fit fits/dahneke1975-quartz.toml --out results");
+      R"(Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the
+data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in DIR;
+the same command then continues.
+
+  recoil fit fits/dahneke1975-quartz.toml --out results)");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_file(command, flags->fit_file);
   command.option("--out", flags->out, "folder for fit.json (default: nothing is written)")

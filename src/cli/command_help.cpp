@@ -46,8 +46,7 @@ void print_topic(const Program& program, const std::string& topic) {
       near.empty() ? "recoil help lists the pages" : fmt::format("did you mean {}?", near));
 }
 
-/// Brings the tables that are made from the code up to date in every page of
-/// `folder`.
+/// Updates the tables that the code makes in every page of `folder`.
 void write_pages(const Program& program, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> pages;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -76,11 +75,10 @@ void add_help(Program& program) {
   command.option("--write-docs", options->folder, "the tables that are made from the code")
       .takes("DIR")
       .hidden();
-  command.footer(
-      "The program contains the pages of docs/.\n"
-      "\n"
-      "  recoil help\n"
-      "  recoil help noise");
+  command.footer(R"(The program contains the pages of docs/.
+
+  recoil help
+  recoil help noise)");
   command.runs([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -47,7 +46,7 @@ f0 = { free = false }                         # adhesion per length [N/m]: from 
 replicates = 1999    # of the bootstrap
 )toml";
 
-/// The answer to a question on the terminal; `otherwise` to an empty one.
+/// Asks a question on the terminal. @returns the answer, or `otherwise` if it is empty
 std::string ask(const std::string& question, const std::string& otherwise = "") {
   print_text("{}{}: ", question, otherwise.empty() ? "" : fmt::format(" [{}]", otherwise));
   std::fflush(stdout);
@@ -65,8 +64,7 @@ std::string ask_for_material(const std::string& which, bool density) {
   return words;
 }
 
-/// What is missing, asked for; without a terminal it stays missing and
-/// import_points says so.
+/// Asks for missing options. Without a terminal, import_points reports them.
 void complete(InitOptions& options) {
   if (isatty(STDIN_FILENO) == 0) return;
   if (options.like.empty()) {
@@ -90,7 +88,7 @@ void complete(InitOptions& options) {
   }
 }
 
-/// The columns of the file that recoil knows, in the units that it prefers.
+/// The map of --map for the columns of the file that have a known name, in the usual units.
 std::vector<std::string> map_of(const std::string& csv) {
   static const std::vector<std::pair<std::string, std::string>> known = {
       {"series", ""},          {"diameter", ":um"},           {"diameter_sd", ":um"},
@@ -106,8 +104,7 @@ std::vector<std::string> map_of(const std::string& csv) {
   return map;
 }
 
-/// Points that the model itself makes: to be replaced, and labelled as what
-/// they are.
+/// Points computed from the model, as an example to be replaced.
 std::string example_points(const Dataset& dataset, double diameter) {
   FitSpec spec = parse_fit(init_fit, "fit.toml");
   const ImpactModel model = make_model(spec, {dataset});
@@ -128,8 +125,8 @@ std::string example_points(const Dataset& dataset, double diameter) {
   return csv;
 }
 
-/// Files that are removed at the end unless `stay` was called: half of them would be in the way of
-/// the next try.
+/// Removes files at the end unless `stay` was called, because incomplete results would prevent a
+/// second run.
 class NewFiles {
  public:
   explicit NewFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
@@ -211,15 +208,14 @@ void run_init(InitOptions options) {
 void add_init(Program& program) {
   const Command command = program.command("init", "make a new dataset folder and a fit file");
   command.footer(
-      "On a terminal, init asks for what the options leave out. Without --points the folder gets\n"
-      "example points, which the model computes and which are labelled synthetic. Nothing is\n"
-      "overwritten. For figures, drop heights and bounce times: recoil help import.\n"
-      "\n"
-      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
-      "  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \\\n"
-      "    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 "
-      "\\\n"
-      "    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28");
+      R"(On a terminal, init asks for what the options leave out. Without --points the folder gets
+example points, which the model computes and which are labelled synthetic. Nothing is
+overwritten. For figures, drop heights and bounce times: recoil help import.
+
+  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
+  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \
+    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 \
+    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28)");
   const auto options = std::make_shared<InitOptions>();
   command.option("DIR", options->folder, "the new folder").required();
   command

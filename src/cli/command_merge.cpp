@@ -17,13 +17,12 @@ struct MergeFlags {
   int threads = 0;
 };
 
-/// The --out of the command without shards: a folder, but for `coverage` a
-/// file.
+/// The --out of the command without shards: a file for `coverage`, otherwise a folder.
 fs::path place_of_results(const std::string& command, const fs::path& folder) {
   return command == "coverage" ? folder / "coverage.md" : folder;
 }
 
-/// Runs the command again; it takes the rows of its pieces from the parts.
+/// Runs the command with the rows of the parts.
 void finish(const Origin& origin, const fs::path& folder, int threads) {
   std::vector<std::string> words = origin.command;
   words.insert(words.end(), {"--out", place_of_results(words.front(), folder).string(), "--parts",
@@ -42,7 +41,7 @@ void merge(const MergeFlags& flags) {
     return;
   }
   require_all_shards(flags.folder, parts);
-  // Relative paths in the command start from its working directory.
+  // Relative paths in the command refer to its working directory.
   const Origin& origin = parts.front().origin;
   fs::path folder = flags.folder;
   if (fs::current_path() != origin.folder) {
@@ -59,13 +58,13 @@ void add_merge(Program& program) {
   const Command command =
       program.command("merge", "combine the shards of a command into one result");
   command.footer(
-      "Prints and writes to DIR exactly what the command without --shard would have printed and\n"
-      "written. merge rejects shards that come from other inputs, seeds, commands or builds of\n"
-      "recoil. It lists missing shards in the form of Slurm's option --array.\n"
-      "\n"
-      "  recoil fit my.toml --shard 1/2 --out parts      on one machine\n"
-      "  recoil fit my.toml --shard 2/2 --out parts      on another\n"
-      "  recoil merge parts");
+      R"(Prints and writes to DIR exactly what the command without --shard would have printed and
+written. merge rejects shards that come from other inputs, seeds, commands or builds of
+recoil. It lists missing shards in the form of Slurm's option --array.
+
+  recoil fit my.toml --shard 1/2 --out parts      on one machine
+  recoil fit my.toml --shard 2/2 --out parts      on another
+  recoil merge parts)");
   const auto flags = std::make_shared<MergeFlags>();
   command.option("DIR", flags->folder, "the folder of the shards").required();
   command.flag("--missing", flags->missing,

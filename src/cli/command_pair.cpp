@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -42,7 +41,7 @@ struct PairCommand {
   PairArguments arguments;
 };
 
-/// FIELD=VALUE pairs as given on the command line.
+/// Parses FIELD=VALUE pairs of the command line.
 std::map<std::string, std::string> assignments(const std::vector<std::string>& words,
                                                const std::string& option) {
   std::map<std::string, std::string> result;
@@ -72,7 +71,7 @@ void require_ascending(const std::vector<double>& edges) {
   }
 }
 
-/// The provenance from the package of the events, or from the option; empty if neither states it.
+/// The provenance from the option or the package of the passages; empty if neither states it.
 std::optional<Provenance> stated_provenance(const PairCommand& command, const PassageTable& table) {
   const auto stated = value_named<Provenance>(command.provenance);
   if (stated && table.provenance && *stated != *table.provenance) {
@@ -85,7 +84,7 @@ std::optional<Provenance> stated_provenance(const PairCommand& command, const Pa
   return stated ? stated : table.provenance;
 }
 
-/// The provenance of a dataset, which has to have one.
+/// The provenance of a dataset to be written. @throws InputError if it is not known
 Provenance provenance_of(const PairCommand& command, const PassageTable& table) {
   const auto provenance = stated_provenance(command, table);
   if (!provenance) {
@@ -95,7 +94,7 @@ Provenance provenance_of(const PairCommand& command, const PassageTable& table) 
   return *provenance;
 }
 
-/// Do the points get the distribution of their sizes beside them? Size classes need none.
+/// True if the dataset gets a size distribution, which size classes do not need.
 bool has_mixed_sizes(const PairCommand& command) {
   return command.arguments.size_edges.size() <= 2 && command.arguments.size_classes == 1;
 }
@@ -112,8 +111,7 @@ void add_dataset(const PairCommand& command, const PassageTable& table, const Pa
                   "above the surface; velocities at the surface.",
                   pairs.impacts.size(), table.passages.size(), pairs.height / units::mm),
       mixed ? pairs.height : 0.0);
-  parse_dataset(package, points,
-                command.into);  // refuses what `recoil check` would refuse
+  parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
   const fs::path folder = command.into;
   files.push_back({folder / "points.csv", points});
   if (mixed) files.push_back({folder / "sizes.csv", sizes_csv(distributions(table, pairs))});
@@ -128,7 +126,7 @@ void add_histograms(const fs::path& folder, const Distributions& shown,
   for (const auto& [name, text] : histogram_files(shown)) files.push_back({folder / name, text});
 }
 
-/// The files whose names are known before the work.
+/// The files whose names are known in advance.
 std::vector<fs::path> outputs_of(const PairCommand& command) {
   std::vector<fs::path> files;
   const fs::path folder = command.into;
@@ -151,7 +149,7 @@ void run_pair(const PairCommand& command) {
   const PassageTable table = read_passages(
       command.events, {assignments(command.units, "--unit"),
                        assignments(command.columns, "--column"), command.positive == "away"});
-  if (!command.into.empty()) provenance_of(command, table);  // complain before the work
+  if (!command.into.empty()) provenance_of(command, table);  // throws before the computation
   const std::vector<fs::path> outputs = outputs_of(command);
   const Replacing replacing = command.replace ? Replacing::data : Replacing::results;
   require_free(outputs, replacing);
@@ -274,23 +272,19 @@ void add_pair(Program& program) {
                                       "find impacts in the passages that a phase Doppler "
                                       "instrument records, and average them into points");
   app.footer(
-      "A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. "
-      "The\n"
-      "time between is the time of free flight to the surface and back; both velocities and the\n"
-      "height of the plane determine it. recoil finds the height at which most passages agree, "
-      "then\n"
-      "pairs passages by flight time and diameter, each with at most one other. Rebounds that "
-      "come\n"
-      "down again are later impacts and are left out. Velocities are corrected to the surface,\n"
-      "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. recoil estimates how many of "
-      "the\n"
-      "passages without a rebound were lost, were too slow to return, and were captured.\n"
-      "\n"
-      "  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv\n"
-      "  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \\\n"
-      "      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \\\n"
-      "      --histograms my-run/histograms\n"
-      "  recoil check my-run");
+      R"(A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. The
+time between is the time of free flight to the surface and back; both velocities and the
+height of the plane determine it. recoil finds the height at which most passages agree, then
+pairs passages by flight time and diameter, each with at most one other. Rebounds that come
+down again are later impacts and are left out. Velocities are corrected to the surface,
+v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. recoil estimates how many of the
+passages without a rebound were lost, were too slow to return, and were captured.
+
+  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv
+  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \
+      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \
+      --histograms my-run/histograms
+  recoil check my-run)");
   const auto command = std::make_shared<PairCommand>();
   add_input_options(app, *command);
   add_search_options(app, *command);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 struct PlanFlags {
   std::string fit_file;
-  std::map<std::string, double> assumed;  ///< by the name of the parameter; those that were given
+  std::map<std::string, double> assumed;  ///< given values by the names of parameters
   std::string parameters;
   std::vector<double> velocity;   // [m/s]
   std::vector<double> diameters;  // [um]
@@ -36,18 +36,14 @@ struct PlanFlags {
   bool json = false;
 };
 
-/// The velocities and diameters that were asked for, or else those of the
-/// points that there are.
+/// Sets the requested velocities and diameters, or else those of the points.
 void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
                  PlanOptions& options) {
   for (const double diameter : flags.diameters) options.diameters.push_back(diameter * units::um);
   if (!flags.velocity.empty()) {
     options.slowest = flags.velocity[0];
     options.fastest = flags.velocity[1];
-    if (options.slowest < options.fastest) return;
-    throw InputError(
-        {}, fmt::format("--velocity {:g},{:g} is not a range", options.slowest, options.fastest),
-        "the first number must be the smaller one", "for example --velocity 1,50");
+    return require_range(flags.velocity);
   }
   double slowest = INFINITY;
   double fastest = 0.0;
@@ -63,7 +59,7 @@ void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
   }
 }
 
-/// Puts an assumed value into every slot of its parameter.
+/// Assigns an assumed value to every slot of its parameter.
 void assume(const std::string& name, double value, const FitSpec& spec, ImpactModel& model) {
   bool found = false;
   for (ParameterSlot& slot : model.slots) {
@@ -82,7 +78,7 @@ void assume(const std::string& name, double value, const FitSpec& spec, ImpactMo
                    traits(spec.adhesion).by_force ? "give --f0" : "give --W");
 }
 
-/// The files of points to be filled in, one for each dataset.
+/// The files of points to be measured, one for each dataset.
 std::vector<fs::path> forms_of(const fs::path& folder, const std::vector<Dataset>& datasets) {
   if (datasets.size() == 1) return {folder / "points.csv"};
   std::vector<fs::path> forms;
@@ -180,18 +176,15 @@ void add_plan(Program& program) {
   const Command command = program.command(
       "plan", "plan an experiment: which velocities and sizes to measure, and how often");
   command.footer(
-      "Needs a fit file and datasets with materials; the datasets need no points yet. The plan\n"
-      "determines the free parameters and the capture velocities with the fewest impacts, and "
-      "states\n"
-      "the errors to expect. It depends on the assumed parameters: repeat it with --parameters "
-      "after\n"
-      "the first results. With --out it writes plan.html (a page to read), plan.json and "
-      "points.csv\n"
-      "(to be filled in).\n"
-      "\n"
-      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
-      "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
-      "      --out my-plan");
+      R"(Needs a fit file and datasets with materials; the datasets need no points yet. The plan
+determines the free parameters and the capture velocities with the fewest impacts, and states
+the errors to expect. It depends on the assumed parameters: repeat it with --parameters after
+the first results. With --out it writes plan.html (a page to read), plan.json and points.csv
+(to be filled in).
+
+  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
+  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \
+      --out my-plan)");
   const auto flags = std::make_shared<PlanFlags>();
   add_fit_file(command, flags->fit_file);
   command

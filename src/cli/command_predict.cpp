@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -74,14 +73,12 @@ void add_predict(Program& program) {
   const Command command =
       program.command("predict", "predict the mean restitution of a mixture of sizes");
   command.footer(
-      "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
-      "and\n"
-      "count) under three conventions: captured spheres count as e = 0; captured spheres are left\n"
-      "out; captured spheres and those too slow to return to the measuring plane are left out. "
-      "With --out it writes predict.csv, predict.json and a picture.\n"
-      "\n"
-      "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
-      "datasets/li1999-sst65-silicon/sizes.csv");
+      R"(Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter and
+count) under three conventions: captured spheres count as e = 0; captured spheres are left out;
+captured spheres and those too slow to return to the measuring plane are left out. With --out it
+writes predict.csv, predict.json and a picture.
+
+  recoil predict fits/li1999-sst65-silicon.toml --sizes datasets/li1999-sst65-silicon/sizes.csv)");
   const auto options = std::make_shared<PredictOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--sizes", options->sizes, "the size distribution (CSV)").required().takes("FILE");

@@ -48,8 +48,8 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
   return files;
 }
 
-/// @throws InputError where two fits would have one page, or a fit the page of the index. A fit
-/// NAME has the page NAME.html and the folder NAME.
+/// A fit NAME has the page NAME.html and the folder NAME.
+/// @throws InputError if two fits would have the same page, or one the page of the index
 void require_pages_of_their_own(const std::vector<fs::path>& fits) {
   std::map<std::string, fs::path> owners = {{"index.html", "the index"}};
   for (const fs::path& fit : fits) {
@@ -69,7 +69,7 @@ void require_pages_of_their_own(const std::vector<fs::path>& fits) {
   }
 }
 
-/// Changes whenever the page could: program, fit file, data, options.
+/// A hash of everything that a page depends on: program, fit file, data, options.
 std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   std::string text = inputs.spec.sha256;
   for (const Dataset& dataset : inputs.datasets) {
@@ -91,9 +91,8 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && sha256_of_file(stamp) == sha256_hex(expected);
 }
 
-/// Diagnoses a fit, and at the same time puts the fits under every law into
-/// `analysis`: these take one thread, and a diagnosis does not keep all threads
-/// busy.
+/// Diagnoses a fit. At the same time it adds the fits under every law to `analysis`: these take one
+/// thread, and a diagnosis does not use all threads.
 Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
@@ -216,12 +215,11 @@ void report(const ReportOptions& options) {
 void add_report(Program& program) {
   const Command command = program.command("report", "write a page for every fit, and an index");
   command.footer(
-      "Writes one page per fit and index.html. A page needs no other file. Pages whose inputs "
-      "have\n"
-      "not changed are kept.\n"
-      "\n"
-      "  recoil report                      every fits/*.toml into reports/\n"
-      "  recoil report my.toml --out pages  one fit");
+      R"(Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
+not changed are kept.
+
+  recoil report                      every fits/*.toml into reports/
+  recoil report my.toml --out pages  one fit)");
   const auto options = std::make_shared<ReportOptions>();
   add_fit_files(command, options->fits, "fit files (default: fits/*.toml)");
   command.option("--out", options->out, "folder for the pages").shows_default().takes("DIR");

@@ -23,10 +23,6 @@ namespace {
 
 constexpr std::size_t indent = 2;  // of tables
 
-void print_line(const std::string& words) {
-  print_text("{}\n", wrap(words, terminal_columns, indent));
-}
-
 struct SimulateOptions {
   std::string fit_file;
   double velocity = 0.0;  // [m/s]
@@ -51,8 +47,7 @@ std::string history_csv(const SimulatedImpact& simulated) {
   return csv;
 }
 
-/// e as measured, what every mechanism contributes, and where the base impact
-/// that follows starts.
+/// Prints e as measured, and the contribution of every mechanism.
 void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diameter,
                       double velocity) {
   const std::vector<double> theta = model.initial();
@@ -90,7 +85,7 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   print_text("{}", terminal_text(table, indent));
 }
 
-/// Where the energy of the whole impact went, mechanisms included.
+/// The energy budget of the whole impact with its mechanisms.
 Table whole_energy_table(const ImpactModel& model, const WholeImpactEnergy& energy) {
   Table table;
   table.caption =
@@ -115,8 +110,8 @@ Table whole_energy_table(const ImpactModel& model, const WholeImpactEnergy& ener
   return table;
 }
 
-/// Where the incident energy went.
-/// @param jumps what the contact loses by itself, in jumping in and out [m V^2]
+/// The energy budget of the base model.
+/// @param jumps energy that an undamped contact loses by jumping in and out [m V^2]
 Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
                     const ImpactResult& impact, double jumps) {
   const bool captured = impact.outcome == ImpactOutcome::captured;
@@ -140,8 +135,7 @@ Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
   return table;
 }
 
-/// The impact of the base model, where the mechanisms leave the sphere at the
-/// contact.
+/// Prints the impact of the base model, with the conditions at the contact.
 void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
                   const ContactProperties& contact, AdhesionDampingPhase phase) {
   const ImpactResult& impact = simulated.impact;
@@ -187,7 +181,7 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
                          provenance_sentence(dataset.provenance)));
 }
 
-/// Percent of e for one percent of every quantity.
+/// The change of e in percent for a change of each quantity by one percent.
 Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const Dataset& dataset) {
   Table table;
   if (!(impact.restitution_squared > 0.0)) return table;
@@ -265,10 +259,9 @@ void add_simulate(Program& program) {
   const Command command =
       program.command("simulate", "simulate one impact, with its energy budget and force history");
   command.footer(
-      "Uses the initial values of the fit file, or with --parameters the values of a fit.json.\n"
-      "\n"
-      "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history "
-      "forces.csv");
+      R"(Uses the initial values of the fit file, or with --parameters the values of a fit.json.
+
+  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)");
   const auto options = std::make_shared<SimulateOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--velocity", options->velocity, "incident velocity [m/s]")

@@ -1,22 +1,21 @@
-
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/quoting.hpp"
+#include "document/terminal.hpp"
 
 namespace recoil {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 std::vector<std::string> fits_beside(const fs::path& file) {
   std::vector<std::string> names;
@@ -105,13 +104,19 @@ void write_or_print(const std::vector<WholeFile>& files, const std::string& resu
   }
 }
 
+void require_range(const std::vector<double>& velocity) {
+  if (velocity[0] < velocity[1]) return;
+  throw InputError({}, fmt::format("--velocity {:g},{:g} is not a range", velocity[0], velocity[1]),
+                   "the first number must be the smaller one", "for example --velocity 1,50");
+}
+
+void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
+
 void add_shared_commands(Program& program) {
   add_fit(program);
   add_coverage(program);
   add_diagnose(program);
 }
-
-namespace fs = std::filesystem;
 
 void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags) {
   flags.command = command;

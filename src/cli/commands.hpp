@@ -14,9 +14,8 @@
 
 namespace recoil {
 
-/// Each adds one command to the program: its options, its help and its action.
-/// Commands throw InputError (exit status 2) or ComputationError (exit status
-/// 3).
+// Each function adds one command to the program: its options, its help and its action. Commands
+// throw InputError (exit status 2) or ComputationError (exit status 3).
 void add_check(Program& program);
 void add_simulate(Program& program);
 void add_fit(Program& program);
@@ -33,21 +32,20 @@ void add_pair(Program& program);
 void add_plan(Program& program);
 void add_merge(Program& program);
 void add_cluster(Program& program);
-/// The manual, which also describes the commands that were added before.
+/// The command help, which also describes the commands that were added before it.
 void add_help(Program& program);
 
 /// The commands whose pieces several processes can share.
 void add_shared_commands(Program& program);
 
-/// FIT, a required fit file. One that is not there is refused with the name of
-/// one that is.
+/// Adds FIT, a required fit file. If it is missing, the error names a similar file.
 void add_fit_file(const Command& command, std::string& fit_file);
 
-/// The same for any number of them, none required.
+/// Adds FIT for any number of fit files, none required.
 Option add_fit_files(const Command& command, std::vector<std::string>& fits,
                      const std::string& meaning);
 
-/// The options that every analysing command shares, as given.
+/// The options of every command that analyses, as given.
 struct AnalysisFlags {
   std::string replicates;  ///< a number or "auto"; empty: the fit file's
   std::string scheme;      ///< empty: the fit file's
@@ -60,57 +58,59 @@ struct AnalysisFlags {
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
-/// --threads and --seed. @param of what the seed is: "the random numbers; fixes every digit"
+/// Add --threads and --seed. @param of for the help: "seed of OF"
 void add_threads(const Command& command, int& threads);
 void add_seed(const Command& command, std::int64_t& seed, const std::string& of);
 
-/// --json: the result as JSON on standard output in place of the words.
+/// Adds --json: prints the result as JSON instead of text.
 void add_json_flag(const Command& command, bool& json);
 
-/// --verbose: the details behind the answer, too.
+/// Adds --verbose: prints all details.
 void add_verbose_flag(const Command& command, bool& verbose);
 
 inline Importance importance_of(bool verbose) {
   return verbose ? Importance::detail : Importance::answer;
 }
 
-/// Writes the files of a result. If they cannot be written the result is printed, so that the work
-/// is not lost, before the error is thrown. @throws InputError
+/// Writes the files of a result. If they cannot be written, it prints the result, so that it is not
+/// lost. @throws InputError if they cannot be written
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
+
+/// @throws InputError unless the two values of --velocity ascend
+void require_range(const std::vector<double>& velocity);
+
+/// Prints text, wrapped to the width of the terminal.
+void print_line(const std::string& words);
 
 /// The options of a command whose pieces several processes can share.
 struct ShardFlags {
   std::string shard;               ///< "3/40"; empty: this process computes everything
-  std::string parts;               ///< set by `recoil merge`: the folder of the parts
-  std::optional<Command> command;  ///< its words are those of the origin
+  std::string parts;               ///< folder of the parts, set by `recoil merge`
+  std::optional<Command> command;  ///< the origin contains its words
   std::string pieces;              ///< "data sets"
 
   bool one_of_several() const { return !shard.empty(); }
   bool merging() const { return !parts.empty(); }
 
-  /// Checks, before a shard computes anything, that it has a folder and
-  /// something to share.
-  /// @throws InputError
+  /// Checks before the computation that a shard has a folder and pieces. @throws InputError
   void require_share(const std::string& out, std::size_t count) const;
 
   /// The origin of this command.
   Origin origin(const FitSpec& spec, const std::vector<Dataset>& datasets, std::uint64_t seed,
                 std::size_t count, const std::string& start) const;
 
-  /// The rows to go on from: those that a stopped run left beside `result`
-  /// (with --shard, in the folder `result`), or those of all parts for a merge.
-  /// Null if the part of this shard exists; a line on standard output reports
-  /// it.
+  /// The rows of finished pieces: for a merge those of all parts, and otherwise those that a
+  /// stopped run left beside `result` (with --shard, in the folder `result`). Null if the part of
+  /// this shard exists, which one line on standard output reports.
   /// @param result empty: nothing is written
   std::shared_ptr<KeptRows> rows(const Origin& origin, const std::filesystem::path& result) const;
 
-  /// With --shard: runs its pieces, and writes them as a part into `folder`.
+  /// Runs the pieces of this shard, and writes them as a part into `folder`.
   void run_share(const Pieces& work, KeptRows& kept, const Origin& origin,
                  const std::filesystem::path& folder) const;
 };
 
-/// Adds --shard, and an option that only `recoil merge` uses. `pieces`: see
-/// ShardFlags.
+/// Adds --shard, and an option that only `recoil merge` uses. @param pieces see ShardFlags
 void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags);
 
 }  // namespace recoil

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -46,8 +45,9 @@ void add_commands(Program& program) {
   add_help(program);
 }
 
-/// Puts /dev/null where a standard stream is closed: a result would take its number otherwise, and
-/// messages would end up in it. Writing to standard output fails all the same.
+/// Opens /dev/null for closed standard streams. Otherwise a result file would get the descriptor of
+/// a standard stream, and messages would be written into it. Writing to standard output still
+/// fails.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
@@ -83,7 +83,7 @@ int run(const std::vector<std::string>& words) {
     const int signal = stop_signal();
     std::fflush(nullptr);
     std::signal(signal, SIG_DFL);
-    std::raise(signal);  // so that the shell sees what stopped it
+    std::raise(signal);  // so that the shell sees the signal
     return 128 + signal;
   } catch (const ComputationError& error) {
     print_text(stderr, "{}\n", error.what());

@@ -11,17 +11,17 @@ namespace recoil {
 
 /// A page of docs/, embedded in the program.
 struct ManualPage {
-  std::string_view topic;  ///< the name of its file without the ending
+  std::string_view topic;  ///< the name of its file without the extension
   std::string_view text;   ///< Markdown
 
   /// Its first line, without the mark of a heading.
   std::string_view title() const;
 };
 
-/// All pages, in the order in which one would read them.
+/// All pages in reading order.
 std::span<const ManualPage> manual_pages();
 
-/// The names of the tables of the manual that are made from the code. A page holds each between two
+/// The names of the manual's tables that the code makes. In a page, a table is between two
 /// comments:
 ///   <!-- made by ./run docs: units -->
 ///   ...
@@ -29,8 +29,8 @@ std::span<const ManualPage> manual_pages();
 std::vector<std::string> manual_table_names();
 
 /// `page` with new text in all of its tables.
-/// @param file for messages
-/// @throws InputError for a table that has no end, or that the code does not make
+/// @param file its name in messages
+/// @throws InputError for a table without an end, and for one that the code does not make
 std::string with_manual_tables(const std::string& page, const std::string& file,
                                const Program& program);
 

@@ -18,7 +18,7 @@
 namespace recoil {
 namespace {
 
-/// Text as it is: bars and stars have no meaning for Markdown.
+/// Text with bars and stars escaped for Markdown.
 std::string literal(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -36,7 +36,7 @@ std::string capitalised(std::string text) {
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 
 // ---- commands
-// --------------------------------------------------------------------------------
+// ------------------------------------------------------------------------------------
 
 /// The options of these commands.
 std::string commands_table(const Program& program, const std::vector<std::string>& names) {
@@ -62,7 +62,7 @@ std::string commands_table(const Program& program, const std::vector<std::string
 }
 
 // ---- catalogue
-// -------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------
 
 std::string mechanisms_table() {
   std::string out =
@@ -146,7 +146,7 @@ std::string base_parameters_table() {
 }
 
 // ---- fit files
-// -------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------
 
 std::string fit_keys_table(std::string_view table) {
   const bool defaults = table != "parameter";
@@ -169,7 +169,7 @@ std::string words_table(std::string_view key) {
 }
 
 // ---- datasets
-// --------------------------------------------------------------------------------
+// ------------------------------------------------------------------------------------
 
 std::string units_table() {
   std::string out = "| columns | measure a | units |\n|---|---|---|\n";
@@ -208,7 +208,7 @@ std::string limits_table() {
   return out;
 }
 
-/// A table by its name.
+/// A table of the manual.
 struct ManualTable {
   const char* name;
   std::function<std::string(const Program&)> text;

@@ -22,8 +22,8 @@ std::string see_help(const std::string& near, const std::string& command) {
                       : fmt::format("did you mean {}?", near);
 }
 
-/// The first --option that its command does not have, with the nearest that it
-/// has; empty if all are known.
+/// A message about the first unknown --option of a command, with the nearest known one; empty if
+/// all are known.
 std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options()) {
@@ -39,7 +39,7 @@ std::string unknown_option(const CLI::App& command, const std::vector<std::strin
   return "";
 }
 
-/// CLI11's complaint as one line, with a suggestion.
+/// The message of CLI11 as one line, with a suggestion.
 std::string one_line(const CLI::ParseError& error, const CLI::App& program,
                      const std::vector<std::string>& words) {
   if (words.empty()) return "a command is missing; recoil --help lists them";
@@ -57,8 +57,8 @@ std::string one_line(const CLI::ParseError& error, const CLI::App& program,
                      see_help(nearest_word(words[0], known), ""));
 }
 
-/// "FLOAT", "`fast`, `reference`", "INT from 1 to 4096", from the type name
-/// that CLI11 makes of an option and its checks, "INT:INT in [1 - 4096]".
+/// What an option accepts, "FLOAT", "`fast`, `reference`", "INT from 1 to 4096", from CLI11's name
+/// of its type and checks, "INT:INT in [1 - 4096]".
 std::string accepted_by(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (option.get_expected_max() == 0) return "";
@@ -112,8 +112,7 @@ Option& Option::one_of(const std::vector<std::string>& words) {
 
 namespace {
 
-/// The number that a word consists of, whatever the locale; nullopt for any other word, and for
-/// numbers that the type cannot hold.
+/// Parses a number in any locale; nullopt for other words, and for numbers out of the type's range.
 template <class Number>
 std::optional<Number> number_in(std::string_view word) {
   if constexpr (std::is_floating_point_v<Number>) {
@@ -135,7 +134,7 @@ struct NumberOf<std::optional<Value>> : NumberOf<Value> {};
 template <class Value>
 struct NumberOf<std::vector<Value>> : NumberOf<Value> {};
 
-/// Refuses words that are no finite number, or no whole one, for every option that takes numbers.
+/// Checks that an option of numbers gets finite numbers, or whole ones.
 template <class Value>
 void check_numbers(CLI::Option& option) {
   using Number = typename NumberOf<Value>::type;

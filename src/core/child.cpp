@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -27,12 +26,12 @@ namespace {
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// An open file in memory, which ends with the process.
-using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
+/// An open file in memory; it exists as long as it is open.
+using MemoryFile = std::unique_ptr<std::FILE, CloseFile>;
 
-NamelessFile nameless_file() {
+MemoryFile memory_file() {
   const int descriptor = memfd_create("recoil", MFD_CLOEXEC);
-  NamelessFile file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
+  MemoryFile file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
   if (!file) {
     throw ComputationError(fmt::format("no temporary file in memory: {}", std::strerror(errno)));
   }
@@ -49,7 +48,7 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-/// The environment with numbers in the C locale and names in UTF-8, whatever the user's is.
+/// The environment of this process with the locale C.UTF-8.
 std::vector<std::string> plain_environment() {
   std::vector<std::string> variables;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -92,9 +91,9 @@ ChildOutcome run_child(const std::vector<std::string>& words, const std::string&
                        std::chrono::milliseconds limit) {
   using Clock = std::chrono::steady_clock;
   constexpr auto longest_nap = std::chrono::milliseconds(20);
-  const NamelessFile in = nameless_file();
-  const NamelessFile out = nameless_file();
-  const NamelessFile err = nameless_file();
+  const MemoryFile in = memory_file();
+  const MemoryFile out = memory_file();
+  const MemoryFile err = memory_file();
   if (std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() ||
       std::fflush(in.get()) != 0) {
     throw ComputationError("there is not enough memory for the input of " + words.front());

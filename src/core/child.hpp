@@ -9,15 +9,17 @@ namespace recoil {
 
 /// The result of running another program.
 struct ChildOutcome {
-  int failed = 0;  ///< errno of a start that failed
+  int failed = 0;  ///< errno if the program could not be started, else 0
   bool timed_out = false;
-  int status = -1;       ///< exit status; -1 where a signal ended it
+  int status = -1;       ///< exit status; -1 if a signal ended the program
   std::string out, err;  ///< standard output and error
 };
 
-/// Runs `words` (a program, searched in PATH, and its arguments; no shell) with `input` as standard
-/// input, numbers in the C locale and names in UTF-8. Its files are in memory, so that no full disk
-/// cuts them short. Ends it after `limit`. @throws CalledOff, after it has ended the program
+/// Runs a program without a shell, in the locale C.UTF-8. Its standard input, output and error are
+/// files in memory, so that a full disk cannot truncate them.
+/// @param words the program, searched in PATH, and its arguments
+/// @param limit the program is killed after this time
+/// @throws ComputationError without memory for these files; CalledOff, after killing the program
 ChildOutcome run_child(const std::vector<std::string>& words, const std::string& input,
                        std::chrono::milliseconds limit);
 

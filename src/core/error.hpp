@@ -6,24 +6,24 @@
 
 namespace recoil {
 
-/// Where in a user's file a mistake stands. Lines and columns count from 1; 0 means "not known".
+/// The place of a mistake in a user's file. Lines and columns count from 1; 0: not known.
 struct Location {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// The one error for whatever a user can put right: a file, a key, a value, the command line. The
-/// command line ends with status 2 on it.
+/// An error that the user can correct, in a file, a key, a value or on the command line. The
+/// program exits with status 2.
 ///
-/// `what()` is one line, as a person would say it:
+/// `what()` is one line:
 ///
 ///   file:line:column: problem (why it is one); suggestion
 ///
-/// The problem says what is there ("the file is empty", "'captured' is 5"); the reason is given
-/// where the problem alone does not explain itself, and the suggestion, an imperative or "did you
-/// mean ...?", where there is something to suggest. What is empty is left out with its punctuation.
-/// The parts are available as members; no code parses the line.
+/// The problem states what was found ("the file is empty", "'captured' is 5"). The reason may be
+/// empty if the problem explains itself. The suggestion is an imperative or "did you mean ...?", or
+/// empty. Empty parts are omitted with their punctuation. No code parses the line, because members
+/// return its parts.
 class InputError : public std::runtime_error {
  public:
   InputError(const Location& where, const std::string& problem, const std::string& why,
@@ -41,9 +41,9 @@ class InputError : public std::runtime_error {
   std::string suggestion_;
 };
 
-/// A computation that ended without a usable answer, with the parameter or point that stood in the
-/// way. The command line ends with status 3 on it. Failures *inside* a bootstrap are values, not
-/// exceptions, because they must be counted.
+/// A computation without a usable result. The message names the parameter or point that caused it.
+/// The program exits with status 3. Failures within a bootstrap are values, not exceptions, because
+/// they must be counted.
 class ComputationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

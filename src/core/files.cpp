@@ -32,15 +32,15 @@ std::string unpredictable_name() {
   return fmt::format("{:016x}", number);
 }
 
-/// Which file it is, whatever its name. The time tells a new file from a deleted one that
-/// had the same number.
+/// Identifies a file independently of its name: device, inode and time of modification. The time
+/// distinguishes a new file from a deleted one with the same inode.
 using FileIdentity = std::tuple<dev_t, ino_t, std::int64_t, std::int64_t>;
 
 FileIdentity identity_of(const struct stat& file) {
   return {file.st_dev, file.st_ino, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
 }
 
-/// The files that this process has read since they are protected.
+/// The files that this process has read since `protect_inputs`.
 struct ReadFiles {
   std::atomic<bool> are_protected = false;
   std::mutex mutex;
@@ -56,7 +56,7 @@ bool was_read(const struct stat& file) {
   return read_files().files.contains(identity_of(file));
 }
 
-/// An open file that is closed at the end.
+/// Owns a file descriptor.
 class OpenFile {
  public:
   explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
@@ -91,7 +91,7 @@ int write_to_disk(OpenFile&& file, std::string_view text, std::optional<mode_t> 
   return failed;
 }
 
-/// Makes the file `path`, which must not exist, with the permissions of `target` where that exists.
+/// Creates the file `path`, which must not exist, with the permissions of `target` if that exists.
 int write_new_file(const std::filesystem::path& path, std::string_view text,
                    const std::filesystem::path& target) {
   struct stat before {};
@@ -103,8 +103,7 @@ int write_new_file(const std::filesystem::path& path, std::string_view text,
       text, mode);
 }
 
-/// The file that a path leads to through symbolic links. The link stays, and its target is
-/// replaced.
+/// Follows symbolic links: writing then replaces the target and keeps the link.
 std::filesystem::path behind_links(std::filesystem::path path) {
   constexpr int most_links = 40;  // as Linux follows
   std::error_code failed;
@@ -114,7 +113,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
   return path;
 }
 
-/// Is it a device or a pipe, which is written into and cannot be replaced?
+/// True for a device or a pipe, to which data are written instead of replacing it.
 bool is_special(const std::filesystem::path& path) {
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
@@ -147,12 +146,13 @@ std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_by
                         const std::string& suggestion) {
     throw InputError(where, problem, why, suggestion);
   };
+  const auto fail_to_read = [&] {
+    fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
+  };
   // O_NONBLOCK: a pipe without a writer is opened all the same.
   const OpenFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
-  if (file.get() < 0 || fstat(file.get(), &status) != 0) {
-    fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
-  }
+  if (file.get() < 0 || fstat(file.get(), &status) != 0) fail_to_read();
   std::string text;
   std::array<char, 1 << 16> piece{};
   Clock::time_point last = Clock::now();
@@ -170,9 +170,7 @@ std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_by
     // The pipe has no writer yet, or is still empty.
     const bool waits =
         size == 0 ? S_ISFIFO(status.st_mode) && text.empty() : errno == EAGAIN || errno == EINTR;
-    if (!waits && size < 0) {
-      fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
-    }
+    if (!waits && size < 0) fail_to_read();
     if (!waits) break;
     end_if_called_off();
     if (Clock::now() - last > patience) {

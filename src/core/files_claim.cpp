@@ -14,7 +14,7 @@
 namespace recoil {
 namespace {
 
-/// Is the open `file` still what `path` names? Its owner may have removed it meanwhile.
+/// True if `path` still names the open `file`, which its owner may have removed meanwhile.
 bool is_still_there(int file, const std::filesystem::path& path) {
   struct stat opened {};
   struct stat named {};
@@ -28,7 +28,7 @@ std::string owner_in(int file) {
   return size > 0 ? std::string(words.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-/// Is it an ordinary file that is empty or names an owner?
+/// True for a regular file that is empty or names an owner.
 bool is_mark(int file) {
   struct stat opened {};
   if (fstat(file, &opened) != 0 || !S_ISREG(opened.st_mode)) return false;
@@ -40,7 +40,7 @@ void name_owner(int file) {
   gethostname(host.data(), host.size() - 1);
   const std::string words =
       fmt::format("process {} on {}", static_cast<long>(getpid()), host.data());
-  // For readers only. Writing the results reports a full disk.
+  // The text only informs people. A full disk is reported when the results are written.
   if (ftruncate(file, 0) == 0 && pwrite(file, words.data(), words.size(), 0) < 0) return;
 }
 
@@ -55,7 +55,7 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
   failed.clear();
   if (!made_.empty()) std::filesystem::create_directories(result.parent_path(), failed);
   if (failed) {
-    let_go();
+    remove_empty_folders();
     throw cannot_be_written(result, failed.value());
   }
   for (;;) {
@@ -63,19 +63,19 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
     const int error = file_ < 0 ? errno : 0;
     if (error == ELOOP || (error == 0 && !is_mark(file_))) {
       if (file_ >= 0) close(file_);
-      let_go();
+      remove_empty_folders();
       throw InputError({mark_.string()}, "this is not a lock file of recoil",
                        "it is a link, or its contents are different", "remove it");
     }
     if (error != 0) {
-      let_go();
+      remove_empty_folders();
       throw cannot_be_written(result, error);
     }
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) return;
       const std::string owner = owner_in(file_);
       close(file_);
-      let_go();
+      remove_empty_folders();
       throw InputError({result.string()}, "another recoil process is writing this result", owner,
                        "wait until it has ended, or choose another place");
     }
@@ -89,10 +89,10 @@ Claim::~Claim() {
   std::error_code ignored;
   std::filesystem::remove(mark_, ignored);
   close(file_);
-  let_go();
+  remove_empty_folders();
 }
 
-void Claim::let_go() {
+void Claim::remove_empty_folders() {
   std::error_code failed;
   for (const std::filesystem::path& folder : made_) {
     if (!std::filesystem::remove(folder, failed)) return;  // something is in it

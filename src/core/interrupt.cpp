@@ -13,7 +13,7 @@ std::atomic<int> calling_off{0};
 std::atomic<int> guards{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
-// SIGUSR1 and SIGXCPU: clusters and limits of time send them before they kill.
+// Clusters and time limits send SIGUSR1 or SIGXCPU before SIGKILL.
 constexpr std::array<int, 5> watched = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
 std::array<struct sigaction, watched.size()> previous;
 

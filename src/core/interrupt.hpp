@@ -5,14 +5,14 @@
 
 namespace recoil {
 
-/// Long work that the user stopped and that has kept its finished pieces. The program prints the
-/// message and then ends as the signal would have ended it.
+/// The user has stopped long work, and its finished pieces are saved. The program prints the
+/// message and then ends as if by the signal.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown by work that was called off. Its result is lost.
+/// Long work was called off. Its result is lost.
 class CalledOff : public std::exception {
  public:
   const char* what() const noexcept override { return "called off"; }
@@ -29,14 +29,14 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-/// Has a signal arrived since the last guard was made?
+/// Has a signal arrived since the last guard was constructed?
 bool stop_requested();
 
-/// That signal; 0 if none arrived.
+/// The number of that signal; 0 if none arrived.
 int stop_signal();
 
-/// During the lifetime of one of these all long work of this process is called off. For a program
-/// that handles Ctrl-C itself, as Python does.
+/// Calls off all long work of this process during its lifetime. For programs that handle Ctrl-C
+/// themselves, as Python does.
 class CallingOff {
  public:
   CallingOff();
@@ -45,7 +45,7 @@ class CallingOff {
   CallingOff& operator=(const CallingOff&) = delete;
 };
 
-/// Should long work end now? Cheap; long work asks every few milliseconds.
+/// Should long work end now? It is cheap: long work polls it every few milliseconds.
 bool called_off();
 
 /// @throws CalledOff if long work should end now

@@ -20,8 +20,8 @@ namespace recoil {
 /// Keys keep the order in which they are written, so that two files compare line by line.
 using Json = nlohmann::ordered_json;
 
-/// `format_version` of every JSON file. It grows when a key is removed or changes its meaning, and
-/// stays when a key is added.
+/// `format_version` of every JSON file. It is raised when a key is removed or changes its meaning,
+/// but not when a key is added.
 inline constexpr int format_version = 2;
 
 /// Lists the members of a struct that JSON holds, in their order. The key of a member is its name:
@@ -51,7 +51,7 @@ inline constexpr int format_version = 2;
 template <class Value>
 using Named = std::vector<std::pair<std::string, Value>>;
 
-/// A value whose key is missing where there is none.
+/// A value whose key is omitted if it is empty.
 template <class Value>
 struct OrAbsent : std::optional<Value> {
   using std::optional<Value>::optional;
@@ -68,7 +68,7 @@ struct OrReason {
   std::string why;
 };
 
-/// JSON of another type or shape than the value that is read from it.
+/// The JSON has another type or shape than the value to be read.
 class JsonMismatch : public std::runtime_error {
  public:
   /// @param expected "a number"
@@ -85,10 +85,10 @@ class JsonMismatch : public std::runtime_error {
   std::string message_;
 };
 
-/// How numbers are written that are not finite, which JSON does not have.
+/// How to write numbers that are not finite, for which JSON has no notation.
 enum class NonFinite {
-  null,  ///< results that people read
-  word   ///< "inf", "-inf", "nan": intermediate results, which have to be read back exactly
+  null,  ///< null, for results
+  word   ///< "inf", "-inf" or "nan", for intermediate results that are read back exactly
 };
 
 /// A number as JSON; minus zero becomes zero.
@@ -98,8 +98,8 @@ Json number_or_null(double value);
 template <class Value>
 Json as_json(const Value& value, NonFinite non_finite = NonFinite::null);
 
-/// Reads what `as_json` writes. A key that is missing leaves its member as it is, because newer
-/// versions add keys; keys that are not known are ignored.
+/// Reads JSON that `as_json` has written. A missing key leaves its member unchanged, because newer
+/// versions add keys; unknown keys are ignored.
 /// @throws JsonMismatch
 template <class Value>
 void read_json(const Json& json, Value& value);
@@ -111,14 +111,14 @@ Value value_from(const Json& json) {
   return value;
 }
 
-/// On one line, without an end of line; bytes that are not UTF-8 are replaced.
+/// JSON on one line, without a newline at the end; bytes that are not UTF-8 are replaced.
 std::string json_line(const Json& json);
 
 /// The text of a JSON file: ends with a newline; bytes that are not UTF-8 are replaced.
 /// @param indent spaces per level; -1: all in one line
 std::string json_text(const Json& json, int indent = 2);
 
-/// The text of a JSON file with `value`.
+/// The text of a JSON file that contains `value`.
 template <class Value>
 std::string text_of(const Value& value, int indent = 2) {
   return json_text(as_json(value), indent);
@@ -149,9 +149,6 @@ concept IsTuple = requires {
   std::tuple_size<T>::value;
 };
 
-template <class T>
-inline constexpr bool is_never = false;
-
 /// The names in "one, two, three".
 std::vector<std::string> split_names(std::string_view names);
 
@@ -176,7 +173,7 @@ void for_each_field(T& value, const Visit& visit) {
       value.fields());
 }
 
-/// Runs `read`; the path of its mismatch begins with `step`.
+/// Runs `read`, and prepends `step` to the path of a mismatch.
 template <class Step, class Read>
 void read_within(const Step& step, const Read& read) {
   try {

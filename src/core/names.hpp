@@ -10,8 +10,8 @@
 
 namespace recoil {
 
-/// The words for the values of an enum: one table for both directions. Specialise it beside the
-/// enum with the names in the order of its values, which count from 0 without a gap:
+/// The names of the values of an enum. Specialise it beside the enum with the names in the order of
+/// the values, which count from 0 without a gap:
 ///
 ///   enum class IntervalKind { wald, profile };
 ///   template <>
@@ -26,7 +26,7 @@ concept NamedEnum = requires {
   NamesOf<Enum>::names.size();
 };
 
-/// How many values `Enum` has.
+/// The number of values of `Enum`.
 template <NamedEnum Enum>
 inline constexpr std::size_t count_of = NamesOf<Enum>::names.size();
 
@@ -54,7 +54,7 @@ std::vector<std::string> all_names() {
   return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
 }
 
-/// The value of that name; none for an unknown word, which is the caller's error to report.
+/// The value with this name; nullopt for an unknown name.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> value_named(std::string_view name) {
   for (const Enum value : values_of<Enum>()) {

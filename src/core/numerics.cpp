@@ -69,6 +69,15 @@ double find_minimum(const Function& function, double lower, double upper, double
   return 0.5 * (lower + upper);
 }
 
+std::vector<double> log_spaced(double first, double last, std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < count; ++k) {
+    values.push_back(
+        first * std::pow(last / first, static_cast<double>(k) / static_cast<double>(count - 1)));
+  }
+  return values;
+}
+
 std::vector<QuadratureNode> gauss_legendre(std::size_t count) {
   const std::unique_ptr<gsl_integration_glfixed_table,
                         decltype(&gsl_integration_glfixed_table_free)>

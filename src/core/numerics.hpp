@@ -6,21 +6,20 @@
 
 namespace recoil {
 
-/// Searches in one dimension. What is not here has a reason that stands beside it: loops that the
-/// solver runs by the million, steps that carry derivatives, and functions each value of which is
-/// a fit that may fail.
-
-/// A root of the continuous `function` between `lower` and `upper`, to a relative `tolerance` of
-/// its place [1], by Brent's method (GSL). The end where it is zero when it is zero there; NaN when
-/// the values at the ends have the same sign, or are none.
+/// A root of the continuous `function` between `lower` and `upper` by Brent's method (GSL). NaN if
+/// the values at the ends have the same sign or are NaN.
+/// @param tolerance relative error of the root [1]
 double find_root(const std::function<double(double)>& function, double lower, double upper,
                  double tolerance = 1e-14);
 
-/// Where `function`, which falls and then rises, is smallest between `lower` and `upper`, to within
-/// `tolerance` (in the units of its argument), by the golden section: one new value for each
-/// narrowing by 0.618, and no assumption of a parabola, which weighted deviances are not.
+/// The minimum of `function`, which falls and then rises, between `lower` and `upper` by golden
+/// section search. It assumes no parabola, because weighted deviances are none.
+/// @param tolerance absolute error, in the unit of the argument
 double find_minimum(const std::function<double(double)>& function, double lower, double upper,
                     double tolerance);
+
+/// `count` values from `first` to `last` with equal ratios. @pre count >= 2, both positive
+std::vector<double> log_spaced(double first, double last, std::size_t count);
 
 struct QuadratureNode {
   double at = 0.0;
@@ -31,8 +30,8 @@ struct QuadratureNode {
 /// table): exact for polynomials up to degree 2 count - 1.
 std::vector<QuadratureNode> gauss_legendre(std::size_t count);
 
-/// Makes GSL report by return codes instead of aborting the process; once per process, from any
-/// thread. Every caller of GSL here checks what it gets back.
+/// Makes GSL report errors by return codes instead of aborting the process. May be called from any
+/// thread and more than once.
 void gsl_errors_are_values();
 
 }  // namespace recoil

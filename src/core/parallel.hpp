@@ -29,8 +29,8 @@ class AllowedThreads {
   std::optional<tbb::global_control> allowance_;
 };
 
-/// Calls body(i) for i in [0, count) on `threads` threads (0: all cores). Each call writes only its
-/// own slot, so no result depends on the number of threads.
+/// Calls body(i) for i in [0, count) on `threads` threads (0: all cores). If each call writes only
+/// its own element, no result depends on the number of threads.
 /// @throws CalledOff between two calls
 template <class Body>
 void parallel_over(std::size_t count, int threads, const Body& body) {

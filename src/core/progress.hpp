@@ -9,8 +9,8 @@
 
 namespace recoil {
 
-/// Progress on standard error: a bar on a terminal; in a pipe a line after `Pace::first` and then
-/// one per `Pace::next`. `advance` may be called from any thread.
+/// Shows progress on standard error: a bar on a terminal, and in a pipe one line after
+/// `Pace::first` and then one per `Pace::next`. `advance` may be called from any thread.
 class Progress {
  public:
   struct Pace {

@@ -9,7 +9,7 @@ unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
 
-/// A letter or digit of ASCII, whatever the locale, or one of `others`.
+/// True for an ASCII letter or digit in any locale, and for one of `others`.
 bool is_plain(char c, std::string_view others) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
          others.find(c) != std::string_view::npos;

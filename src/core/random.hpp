@@ -4,7 +4,7 @@
 
 namespace recoil {
 
-/// What a stream of random numbers is for. Streams with different purposes never overlap.
+/// The purpose of a stream of random numbers. Streams with different purposes never overlap.
 enum class RandomPurpose : std::uint32_t {
   bootstrap = 1,
   reconstruction = 2,
@@ -20,8 +20,8 @@ enum class RandomPurpose : std::uint32_t {
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):
 /// Philox4x64-10, counter based (Salmon, Moraes, Dror & Shaw 2011, SC'11,
-/// doi 10.1145/2063384.2063405; the Random123 library). Replicate 17 draws the same numbers
-/// whichever thread runs it, and can be run again alone.
+/// doi 10.1145/2063384.2063405; the Random123 library). Replicate 17 therefore draws the same
+/// numbers on any thread, and also if it is run alone.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, RandomPurpose purpose, std::uint64_t replicate);
@@ -29,7 +29,7 @@ class RandomStream {
   /// Uniform on the open interval (0, 1) [1].
   double uniform();
 
-  /// Standard normal [1], by inversion (one uniform each, so streams stay aligned).
+  /// Standard normal [1] by inversion: each takes one uniform number, so that streams stay aligned.
   double normal();
 
   /// Uniform on {0, ..., n - 1}. @pre n > 0

@@ -25,7 +25,7 @@ namespace recoil {
 
 namespace {
 
-/// A file of rows. A pipe or device of its name is not opened.
+/// Opens a file of rows, but no pipe or device.
 std::ifstream open_rows(const std::filesystem::path& file) {
   std::error_code failed;
   return std::filesystem::is_regular_file(file, failed) ? std::ifstream(file, std::ios::binary)
@@ -178,7 +178,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The message where a field of two origins differs; the most general first.
+/// The message if a field of two origins differs. The list begins with the most general field.
 struct Difference {
   const char* field;
   const char* words;
@@ -209,7 +209,7 @@ struct PartHead {
   RECOIL_FIELDS(part, of, origin)
 };
 
-/// The part that a file holds, if it is one.
+/// The part in a file; nullopt if the file is none.
 std::optional<Part> part_in(const fs::path& file) {
   const std::string name = file.filename().string();
   if (!name.starts_with("part-") || !name.ends_with(".jsonl")) return std::nullopt;

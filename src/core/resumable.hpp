@@ -19,37 +19,36 @@
 #include "core/interrupt.hpp"
 #include "core/json.hpp"
 
-/// Long work in numbered pieces, each a pure function of its number. One process runs all of them
-/// and goes on where it was stopped; or several processes, the shards, run some each and write them
-/// as files, the parts, and a merge takes the rows of all parts.
+/// Long work in numbered pieces, each a pure function of its number. One process runs all pieces
+/// and continues where it was stopped. Or several processes (shards) run some pieces each, every
+/// shard writes its rows to one file (a part), and a merge reads the rows of all parts.
 namespace recoil {
 
-/// The rows of a file by the number of their piece; each is JSON on one line.
+/// The rows of a file by the number of their piece. Each row is JSON on one line.
 using Rows = std::map<std::size_t, std::string>;
 
-/// Writes a file of rows, whole or not at all. Its first line is `head`, an object, to which "rows"
-/// (how many follow), their "bytes" and their "sha256" are added; every further line is one row,
-/// [piece, row].
-/// @throws InputError when the place cannot be written
+/// Writes a file of rows as a whole. Its first line is the object `head` with the added keys "rows"
+/// (their number), "bytes" and "sha256". Every further line is one row, [piece, row].
+/// @throws InputError if the file cannot be written
 void write_rows(const std::filesystem::path& file, Json head, const Rows& rows);
 
-/// The first line alone; nullopt for a file that is missing, cut short or of another kind.
+/// The first line of a file of rows; nullopt if the file is missing, truncated or of another kind.
 std::optional<Json> read_row_head(const std::filesystem::path& file);
 
-/// All rows; nullopt for a file that is missing, or whose rows are not those that were written.
+/// All rows of a file; nullopt if it is missing or its rows were changed.
 std::optional<Rows> read_rows(const std::filesystem::path& file);
 
-/// Numbers as a row that round-trips every double.
+/// A row of numbers that round-trips every double.
 inline Json row_json(const std::vector<double>& numbers) {
   return as_json(numbers, NonFinite::word);
 }
-/// The numbers of such a row. @throws JsonMismatch for another kind of row
+/// The numbers of a row of `row_json`. @throws JsonMismatch for another kind of row
 inline std::vector<double> row_numbers(const Json& row) {
   return value_from<std::vector<double>>(row);
 }
 
-/// How often long work writes a file of its rows: every half minute, so that a process that is
-/// killed loses no more than that, but for at most a tenth of the time.
+/// Decides when long work writes its rows to a file: every 30 s, so that a killed process loses no
+/// more than that, but less often if writing would take more than a tenth of the time.
 class KeepingPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -59,8 +58,8 @@ class KeepingPace {
 
   bool is_due() const { return Clock::now() >= next_; }
 
-  /// Calls `write` and counts from its end. A place that cannot be written does not stop the work:
-  /// one line on standard error reports it.
+  /// Calls `write`, and counts the time to the next call from its end. An error of writing does not
+  /// stop the work; one line on standard error reports it.
   void keep(const std::function<void()>& write);
 
  private:
@@ -71,12 +70,12 @@ class KeepingPace {
   bool reported_ = false;
 };
 
-/// The rows of the finished pieces of some long work. With a file, a run that was stopped or killed
-/// goes on from there. Every member may be called from any thread.
+/// The rows of the finished pieces of long work. With a file, a run that was stopped or killed
+/// continues from it. Every member may be called from any thread.
 class KeptRows {
  public:
-  /// Takes over the rows of `file` if it is whole and has the same `key`, a hash of everything that
-  /// decides a digit of a row. Without a file the rows stay in memory.
+  /// Reads the rows of `file` if it is complete and has the same `key`, a hash of everything that a
+  /// digit of a row depends on. Without a file the rows stay in memory.
   explicit KeptRows(std::filesystem::path file = {}, std::string key = {},
                     KeepingPace pace = KeepingPace());
 
@@ -84,14 +83,14 @@ class KeptRows {
   std::optional<Json> find(std::size_t piece) const;
   bool has(std::size_t piece) const;
 
-  /// Adds a row, and writes the file when it is due.
-  /// @throws CalledOff if the work was called off meanwhile: its result may be incomplete
+  /// Adds a row, and writes the file if `KeepingPace` says so.
+  /// @throws CalledOff if the work was called off, because its result may then be incomplete
   void put(std::size_t piece, const Json& row);
 
-  /// Adds the rows of another file; those that are there already stay.
+  /// Adds the rows of another file, except for pieces that have a row already.
   void add(Rows rows);
 
-  /// Writes the file now. @throws InputError when the place cannot be written
+  /// Writes the file now. @throws InputError if it cannot be written
   void keep();
 
   /// Removes the file. Call it once the results are written.
@@ -114,9 +113,9 @@ class KeptRows {
   KeepingPace pace_;
 };
 
-/// The result of `piece`: `read` of its row in `kept`, or else `make()`, whose row is `write` of
-/// it. A row that `read` refuses by an exception is made again.
-/// @param kept null: nothing is kept
+/// The result of `piece`: `read(row)` if `kept` has its row, and otherwise `made = make()`, after
+/// adding the row `write(made)`. If `read` throws, the result is made again.
+/// @param kept may be null
 template <class Make, class Write, class Read>
 auto kept_or_made(KeptRows* kept, std::size_t piece, const Make& make, const Write& write,
                   const Read& read) {
@@ -141,14 +140,14 @@ struct Pieces {
   std::function<Json(std::size_t piece)> run;
 };
 
-/// One of several processes that share numbered work. Of pieces numbered from 0, shard k of n runs
-/// those with i mod n = k - 1: neighbours, which often cost the same, go to different shards.
+/// One of several processes that share numbered pieces. Shard k of n runs the pieces i (from 0)
+/// with i mod n = k - 1, so that neighbours, which often cost the same, go to different shards.
 struct Shard {
   std::size_t number = 1;  ///< k, from 1
   std::size_t of = 1;      ///< n
 
   bool owns(std::size_t piece) const { return piece % of == number - 1; }
-  /// How many of `pieces` it runs.
+  /// The number of pieces, of `pieces`, that this shard runs.
   std::size_t share(std::size_t pieces) const { return (pieces + of - number) / of; }
 };
 
@@ -187,23 +186,23 @@ auto resumable(KeptRows& kept, const Work& work) {
   }
 }
 
-/// Everything that decides the digits of a computation. Parts are merged only if theirs agree.
+/// Everything that the digits of a computation depend on. Parts are merged only if theirs agree.
 struct Origin {
-  std::vector<std::string> command;  ///< its words without shard, threads and places
-  std::string folder;                ///< the working directory of the command; decides no digit
+  std::vector<std::string> command;  ///< its words without shard, threads and folders
+  std::string folder;                ///< the working directory of the command; changes no digit
   std::string version;               ///< of recoil
   std::string program;               ///< SHA-256 of its file
   std::string inputs;                ///< SHA-256 of the fit files and their data
   std::uint64_t seed = 0;
   std::size_t pieces = 0;
   std::string arithmetic;  ///< of the processor, `arithmetic_fingerprint`
-  std::string start;       ///< SHA-256 of what the pieces start from: the fit, to the last digit
+  std::string start;       ///< SHA-256 of the fit from which the pieces start, to the last digit
 
   RECOIL_FIELDS(command, folder, version, program, inputs, seed, pieces, arithmetic, start)
 };
 
-/// An origin in this program, on this processor, in the working directory.
-/// @param start text with every digit of what the pieces start from
+/// The origin of a computation by this program, on this processor, in the working directory.
+/// @param start text with every digit of the fit from which the pieces start
 Origin origin_here(std::vector<std::string> command, const std::string& inputs, std::uint64_t seed,
                    std::size_t pieces, const std::string& start);
 
@@ -213,7 +212,7 @@ std::string key_of(const Origin& origin);
 /// How two origins differ, as a clause ("their seeds differ"); empty if they agree.
 std::string difference(const Origin& a, const Origin& b);
 
-/// "unfinished-NAME.jsonl" beside `result`: the rows of a run that has not written it yet.
+/// "unfinished-NAME.jsonl" beside `result`, for the rows of a run that is not finished.
 std::filesystem::path unfinished_beside(const std::filesystem::path& result);
 
 /// "part-3-of-40-0f3a5c....jsonl" in `folder`: different origins never share a file, and a shard
@@ -224,7 +223,7 @@ std::filesystem::path part_path(const std::filesystem::path& folder, const Origi
 /// Does `folder` have the part of this shard?
 bool has_part(const std::filesystem::path& folder, const Origin& origin, const Shard& shard);
 
-/// The rows of a shard that was stopped before it wrote its part into `folder`.
+/// The rows of a shard that has not written its part into `folder` yet.
 std::shared_ptr<KeptRows> rows_of_shard(const std::filesystem::path& folder, const Origin& origin,
                                         const Shard& shard);
 
@@ -232,15 +231,15 @@ std::shared_ptr<KeptRows> rows_of_shard(const std::filesystem::path& folder, con
 void write_part(const KeptRows& kept, const std::filesystem::path& folder, const Origin& origin,
                 const Shard& shard);
 
-/// One file of a finished shard.
+/// The file of a finished shard.
 struct Part {
   std::filesystem::path file;
   Origin origin;
   Shard shard;
 };
 
-/// All parts in `folder` by the numbers of their shards; only their first lines are read. They may
-/// differ in `arithmetic` and `start`.
+/// All parts in `folder`, sorted by the numbers of their shards. Only their first lines are read.
+/// They may differ in `arithmetic` and `start`.
 /// @throws InputError if there are none, or if they do not belong together
 std::vector<Part> parts_in(const std::filesystem::path& folder);
 
@@ -252,7 +251,7 @@ struct MissingShards {
 };
 MissingShards missing_shards(const std::vector<Part>& parts);
 
-/// Numbers as Slurm's --array= takes them: "1-3,7". @pre ascending
+/// `numbers` in the form of Slurm's --array=: "1-3,7". @pre ascending
 std::string array_list(const std::vector<std::size_t>& numbers);
 
 /// @throws ComputationError if shards are missing; it says which to run again

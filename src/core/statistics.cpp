@@ -8,8 +8,8 @@
 namespace recoil {
 namespace {
 
-/// The rank of a sorted value, from 0, held within the sample.
-double held_rank(double rank, std::size_t count) {
+/// A rank, from 0, clamped to the sample.
+double clamped_rank(double rank, std::size_t count) {
   return std::clamp(rank, 0.0, static_cast<double>(count) - 1.0);
 }
 
@@ -41,17 +41,17 @@ double standard_deviation(std::span<const double> values) {
 }
 
 double sorted_quantile(std::span<const double> ascending, double p) {
-  return at_rank(ascending, held_rank(quantile_rank(p, ascending.size()), ascending.size()));
+  return at_rank(ascending, clamped_rank(quantile_rank(p, ascending.size()), ascending.size()));
 }
 
 double quantile_error(std::span<const double> ascending, double p, double rank_sd) {
   const double count = static_cast<double>(ascending.size());
   const double sd = rank_sd < 0.0 ? std::sqrt(count * p * (1.0 - p)) : rank_sd;
   const double rank = quantile_rank(p, ascending.size());
-  const double low = held_rank(rank - sd, ascending.size());
-  const double high = held_rank(rank + sd, ascending.size());
+  const double low = clamped_rank(rank - sd, ascending.size());
+  const double high = clamped_rank(rank + sd, ascending.size());
   if (!(high > low)) return 0.0;
-  // Where the sample ends before one standard deviation, what is left of it stands for the whole.
+  // If the sample ends within one standard deviation, the remaining distance is scaled up.
   return (at_rank(ascending, high) - at_rank(ascending, low)) * sd / (high - low);
 }
 
@@ -72,8 +72,9 @@ double robust_sd(std::vector<double> values) {
 double poisson_at_least(std::size_t count, double mean) {
   if (count == 0) return 1.0;
   if (!(mean > 0.0)) return 0.0;
-  // The terms p_j = mean^j exp(-mean) / j! on the side of `count` away from the mean, where they
-  // fall; their logarithm does not underflow. (gsl_cdf_poisson_Q gives up at some means of 10^5.)
+  // Sums p_j = mean^j exp(-mean) / j! on the side of `count` away from the mean, where they fall.
+  // The logarithm of the first term does not underflow. (gsl_cdf_poisson_Q fails at some means of
+  // 1e5.)
   const bool above = static_cast<double>(count) > mean;
   double j = static_cast<double>(above ? count : count - 1);
   double term = std::exp(j * std::log(mean) - mean - std::lgamma(j + 1.0));

@@ -6,10 +6,10 @@
 
 namespace recoil {
 
-/// The mean; 0 for none.
+/// The arithmetic mean; 0 if there are no values.
 double mean(std::span<const double> values);
 
-/// The standard deviation of which `values` are a sample, with n - 1; 0 for fewer than two.
+/// The sample standard deviation, with n - 1; 0 for fewer than two values.
 double standard_deviation(std::span<const double> values);
 
 /// The p-quantile of an ascending sample by the (B + 1) p rule with linear interpolation, clamped
@@ -18,22 +18,21 @@ double standard_deviation(std::span<const double> values);
 double sorted_quantile(std::span<const double> ascending, double p);
 
 /// Monte-Carlo error of `sorted_quantile(ascending, p)`: half the distance between the order
-/// statistics one standard deviation of rank on either side (Woodruff 1952, J. Am. Stat. Assoc. 47,
-/// 635-646), the rank being binomial, sd = sqrt(B p (1 - p)).
+/// statistics one standard deviation of the rank on either side (Woodruff 1952, J. Am. Stat. Assoc.
+/// 47, 635-646). The rank is binomial with sd = sqrt(B p (1 - p)).
 /// @param rank_sd overrides the binomial standard deviation when it is not negative [ranks]
 double quantile_error(std::span<const double> ascending, double p, double rank_sd = -1.0);
 
-/// The middle value; 0 for none.
+/// The median; 0 if there are no values.
 double median(std::vector<double> values);
 
-/// Standard deviation about the median, whatever the tails: 1.4826 times the median absolute
-/// deviation.
+/// A robust estimate of the standard deviation: 1.4826 times the median absolute deviation.
 double robust_sd(std::vector<double> values);
 
-/// The probability that a Poisson variable with this mean is `count` or more.
+/// The probability that a Poisson variable with this mean is at least `count`.
 double poisson_at_least(std::size_t count, double mean);
 
-/// 95 % limits of a share, by the score of Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
+/// 95 % limits of a share by the score method of Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
 /// @pre whole > 0
 struct ShareLimits {
   double lower = 0.0;

@@ -1,7 +1,5 @@
 #include "core/units.hpp"
 
-#include <array>
-
 namespace recoil {
 namespace {
 
@@ -11,7 +9,7 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array<Unit, 37> known_units = {{
+constexpr Unit known_units[] = {
     {Dimension::count, "1", 1.0},
     {Dimension::ratio, "1", 1.0},
     {Dimension::ratio, "%", 1e-2},
@@ -44,11 +42,11 @@ constexpr std::array<Unit, 37> known_units = {{
     {Dimension::pressure, "atm", 101325.0},
     {Dimension::pressure, "Torr", 101325.0 / 760.0},
     {Dimension::temperature, "K", 1.0},
-    {Dimension::temperature, "degC", 1.0},  // zero: see Scale
+    {Dimension::temperature, "degC", 1.0},  // known_scale adds the zero
     {Dimension::temperature, "°C", 1.0},
     {Dimension::temperature, "degF", 5.0 / 9.0},
     {Dimension::temperature, "°F", 5.0 / 9.0},
-}};
+};
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace recoil {
 
-/// Multiply by these to come into SI, divide to leave it: `4.9 * units::um`.
+/// Multiply to convert to SI, divide to convert from SI: `4.9 * units::um`.
 namespace units {
 inline constexpr double m = 1.0;
 inline constexpr double cm = 1e-2;
@@ -38,14 +38,14 @@ struct NamesOf<Dimension> {
       "text", "count", "ratio", "length", "velocity", "time", "pressure", "temperature"};
 };
 
-/// The factor to SI of a unit name ("um", "cm/s", "%"), or nothing when `unit` does not belong to
+/// The factor to SI of a unit name ("um", "cm/s", "%"); nullopt if `unit` does not belong to
 /// `dimension`.
 std::optional<double> unit_factor(Dimension dimension, std::string_view unit);
 
-/// The unit names accepted for `dimension`, for error messages; the usual one first.
+/// The unit names accepted for `dimension`, the usual one first.
 std::vector<std::string> unit_names(Dimension dimension);
 
-/// What `unit` measures, if it is known at all.
+/// What `unit` measures; nullopt for an unknown unit.
 std::optional<Dimension> dimension_of_unit(std::string_view unit);
 
 }  // namespace recoil

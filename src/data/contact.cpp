@@ -12,11 +12,12 @@ namespace {
 
 using std::numbers::pi;
 
-// Gilman (1960) as used by Li, Dunn & Brach (1999), below eq. 11: both lengths "about".
+// Gilman (1960) as used by Li, Dunn & Brach (1999), below eq. 11, who call both lengths
+// approximate.
 constexpr double gilman_y0 = 2.0e-10;  // equilibrium lattice constant [m]
 constexpr double gilman_a0 = 1.3e-10;  // elastic distance of the attractive force [m]
 
-// Stated and derived values that differ by more than rounding of three printed digits.
+// A larger relative difference of a stated and a derived value is more than rounding [1].
 constexpr double contradiction_tolerance = 0.02;
 
 }  // namespace

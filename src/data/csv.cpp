@@ -10,8 +10,8 @@
 namespace recoil {
 namespace {
 
-/// Longer cells are refused. They come from a quotation mark that is never closed, or from a file
-/// that is not a table [bytes].
+/// Longer cells are refused [bytes]. They come from an unclosed quotation mark, or from a file that
+/// is not a table.
 constexpr std::size_t longest_cell = 10000;
 
 class CsvReader {

@@ -22,11 +22,11 @@ struct CsvField {
 
 using CsvRow = std::vector<CsvField>;
 
-/// Reads delimiter-separated text (RFC 4180) and hands over one row after the other, the header
-/// first. Blank lines are skipped; blanks around unquoted cells are dropped. The text is never held
-/// as a table, so a large file costs one row of memory.
+/// Reads delimiter-separated text (RFC 4180) and calls `on_row` for one row after the other, the
+/// header first. Blank lines and blanks around unquoted cells are skipped. Only one row is in
+/// memory at a time.
 ///
-/// @param file the name that messages give.
+/// @param file its name in messages
 /// @param delimiter between cells; ' ' stands for any number of blanks and tabs
 /// @param comment lines that begin with it are skipped; '\0': none
 /// @throws InputError for a quotation mark that is not closed or in the wrong place and for a cell
@@ -34,18 +34,18 @@ using CsvRow = std::vector<CsvField>;
 void read_csv(std::string_view text, const std::string& file, char delimiter,
               const std::function<void(const CsvRow&)>& on_row, char comment = '\0');
 
-/// How the numbers of a table are written: 2.5 or 2,5, and 2500 or 2.500 (Table Schema:
-/// decimalChar, groupChar).
+/// The notation of numbers in a table: 2.5 or 2,5, and 2500 or 2.500 (Table Schema: decimalChar,
+/// groupChar).
 struct NumberFormat {
   std::string decimal = ".";
   std::string group = "";  ///< between groups of three digits; empty: none
 };
 
-/// The finite number that `text` consists of; nullopt for anything else, a mark that the format
-/// does not have and groups that are not of three digits included.
+/// Parses a finite number in this format. nullopt for any other text, also with another mark than
+/// the format's or with groups that do not have three digits.
 std::optional<double> parse_number(std::string_view text, const NumberFormat& format);
 
-/// The finite number in a cell. @param what it has to be, for the message: "diameter in um"
+/// The finite number in a cell. @param what it means, for the message: "diameter in um"
 /// @throws InputError at the cell
 double number_in(const CsvField& cell, const std::string& file, const std::string& what,
                  const NumberFormat& format = {});
@@ -58,18 +58,18 @@ struct Scale {
   double operator()(double stated) const { return stated * factor + zero; }
 };
 
-/// The scale of `unit`. @param of what has this unit, for the message
-/// @throws InputError when the unit is unknown or measures something else.
+/// The scale of `unit`. @param of name of the quantity, for the message
+/// @throws InputError if the unit is unknown or does not belong to `dimension`
 Scale known_scale(Dimension dimension, const std::string& unit, const std::string& of,
                   const Location& where);
 
-/// @throws InputError for a row that has not as many cells as the header.
+/// @throws InputError unless the row has as many cells as the header
 void require_width(const CsvRow& row, std::size_t width, const std::string& file);
 
-/// The delimiter of a file with this header: the most frequent of comma, semicolon and tab.
+/// The most frequent of comma, semicolon and tab in a header line.
 char delimiter_of(std::string_view header);
 
-/// `text` as a cell of a comma-separated file, quoted where it has to be (RFC 4180).
+/// `text` as a cell of a comma-separated file, quoted if necessary (RFC 4180).
 std::string csv_cell(const std::string& text);
 
 }  // namespace recoil

@@ -16,7 +16,7 @@ namespace {
 
 bool is_count(Quantity quantity) { return dimension_of(quantity) == Dimension::count; }
 
-/// 0 or 1, or a count of which single impacts have 0 or 1.
+/// True for a flag, and for a count that is 0 or 1 for a single impact.
 bool may_be_boolean(Quantity quantity) {
   return is_count(quantity) && quantity != Quantity::events;
 }
@@ -27,7 +27,8 @@ std::vector<std::string> read_words(const JsonNode& list) {
   return words;
 }
 
-/// Refuses the keys of `node` that are not among `known`: they change what a cell means.
+/// Refuses keys of `node` that are among `changing` (they change the meaning of cells) and not
+/// among `known`.
 void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
                    const std::vector<std::string>& changing) {
   for (const JsonNode& member : node.members()) {
@@ -40,7 +41,7 @@ void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
   }
 }
 
-/// `node` states what is done anyway. @param usual "\"default\"", true, ...
+/// Refuses the key unless its value is `usual`, which is what the reader does.
 void require_usual(const JsonNode& parent, const char* key, const nlohmann::json& usual) {
   const auto node = parent.find(key);
   if (!node || node->scalar() == usual) return;
@@ -49,7 +50,7 @@ void require_usual(const JsonNode& parent, const char* key, const nlohmann::json
              fmt::format("remove it, or write {}", usual.dump()));
 }
 
-/// decimalChar and groupChar of Table Schema.
+/// Reads decimalChar and groupChar of Table Schema.
 void read_number_format(const JsonNode& field, NumberFormat& format) {
   require_usual(field, "bareNumber", true);
   const auto read = [&](const char* key, std::string& mark) {
@@ -82,7 +83,7 @@ void read_constraints(const JsonNode& field, Column& column) {
   if (const auto node = constraints->find("maximum")) column.maximum = node->number();
 }
 
-/// Frictionless `type` of a field.
+/// Reads the Frictionless `type` of a field and the keys that depend on it.
 void read_type(const JsonNode& field, Column& column) {
   const Quantity quantity = column.quantity;
   const bool text = dimension_of(quantity) == Dimension::text;
@@ -179,7 +180,7 @@ std::vector<Column> read_fields(const JsonNode& fields) {
   return columns;
 }
 
-/// The points have to travel with their folder, so the path stays inside of it.
+/// Reads a path inside the dataset's folder, because a dataset is copied as one folder.
 std::string read_path(const JsonNode& node) {
   const std::string text = node.string();
   const std::filesystem::path path(text);
@@ -206,7 +207,7 @@ char read_delimiter(const JsonNode& dialect) {
   return text[0];
 }
 
-/// CSV Dialect and Table Dialect of Frictionless: how the file is cut into cells.
+/// Reads CSV Dialect and Table Dialect of Frictionless, which state how a file is split into cells.
 void read_dialect(const JsonNode& resource, Package& package) {
   require_usual(resource, "compression", "");
   if (const auto node = resource.find("encoding")) {
@@ -269,7 +270,7 @@ void read_resource(const JsonNode& root, Package& package) {
   }
 }
 
-/// Frictionless: a name is fit for a file name.
+/// Reads the package's name, which has to be usable as the name of a file (Frictionless).
 std::string read_id(const JsonNode& node) {
   const std::string id = node.string();
   const bool plain = std::ranges::all_of(id, [](char c) {
@@ -300,7 +301,7 @@ std::vector<std::string> read_sources(const JsonNode& root) {
   return lines;
 }
 
-/// nullopt when a key is unknown or a value is impossible.
+/// nullopt if a key is unknown or a value is impossible.
 std::optional<ImpactSystem> readable_system(const Json& system) {
   try {
     const JsonDocument document(json_line(system), "");
@@ -389,8 +390,6 @@ Json csv_resource(const std::string& name, const std::string& path, const Json& 
           {"encoding", "utf-8"}, {"schema", {{"fields", fields}}}};
 }
 
-std::string package_text(const Json& package) { return json_text(package); }
-
 Json stated_system(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / package_file_name;
   const std::string text = read_text_file(file);
@@ -409,7 +408,7 @@ std::vector<LeftOverride> leave_out_contradictions(Json& system,
   std::vector<LeftOverride> left;
   std::optional<ImpactSystem> kept = readable_system(system);
   if (!kept) return left;
-  // No derived value but that of f0 depends on the diameter, and f0 is not stated without one.
+  // Only the derived f0 depends on the diameter, and a stated f0 comes with one.
   const double diameter = kept->reference_diameter.value_or(1e-6);
   const auto leave_out = [&](const char* key, std::optional<double> ImpactSystem::*stated,
                              double ContactProperties::*derived) {

@@ -71,13 +71,13 @@ struct NamesOf<Quantity> {
   }();
 };
 
-/// What a quantity measures; a series, a setting and a launch are texts.
+/// The dimension of a quantity. Series, setting and launch are texts.
 Dimension dimension_of(Quantity quantity);
 
-/// The column of a condition.
+/// The quantity of a condition.
 Quantity quantity_of(Condition condition);
 
-/// One field of the schema.
+/// A field of the schema.
 struct Column {
   Quantity quantity = Quantity::series;
   std::string name;      ///< as in the header of the CSV file
@@ -92,14 +92,13 @@ struct Column {
   std::optional<double> minimum, maximum;   ///< of the values, in the unit of the column
 };
 
-/// `datapackage.json` (Frictionless Data Package) as read and validated, SI inside.
+/// `datapackage.json` (Frictionless Data Package) as read and validated, in SI units.
 ///
-/// The key `recoil` holds the system: `provenance`, `particle`, `surface`, and directly beside them
-/// the optional overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2], `adhesion_force_f0` [N/m]
-/// and `reference_diameter` [m] (which the force needs), and `mixed_sizes`, the path of a size
-/// distribution over which every point averages. Unknown keys are refused there and allowed
-/// elsewhere, as Frictionless has it, unless they change what a cell means: those are honoured or
-/// refused.
+/// The key `recoil` contains the system: `provenance`, `particle`, `surface`, the optional
+/// overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2], `adhesion_force_f0` [N/m] and
+/// `reference_diameter` [m] (needed with the force), and `mixed_sizes`, the path of a size
+/// distribution over which every point averages. Unknown keys are refused in this object. Elsewhere
+/// they are allowed, as in Frictionless, unless they change the meaning of cells.
 struct Package {
   std::string id;
   std::string title;
@@ -117,47 +116,44 @@ struct Package {
 };
 
 /// Reads the text of `datapackage.json`.
-/// @param file the name that messages give.
-/// @param fallback_id the id when the package has no `name`: its folder's.
-/// @throws InputError with the line and column of the first mistake.
+/// @param file its name in messages
+/// @param fallback_id the id if the package has no `name`
+/// @throws InputError with line and column of the first mistake
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id);
 
-/// The resource of a package whose `path` is this, if there is one.
+/// The resource of a package with this `path`, if there is one.
 std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path);
 
-/// The units that the fields of a resource state: field -> unit.
+/// The units that a resource states, by the names of its fields.
 std::map<std::string, std::string> field_units(const JsonNode& resource);
 
-/// A field of a schema. @param unit, description are left out when they are empty.
+/// A field of a schema. Empty units and descriptions are omitted.
 Json package_field(const std::string& name, const std::string& type, const std::string& unit,
                    const std::string& description = "");
 
-/// A resource: a CSV file in the folder with a list of fields.
+/// A resource that describes a CSV file with these fields.
 Json csv_resource(const std::string& name, const std::string& path, const Json& fields);
 
-/// The text of datapackage.json.
-std::string package_text(const Json& package);
-
-/// The object that the dataset in `folder` states under `recoil`, for another dataset with the same
-/// materials: without provenance, conditions, method and sizes. @throws InputError when there is no
-/// data package with that key.
+/// The object under `recoil` of the dataset in `folder`, for another dataset with the same
+/// materials: without provenance, conditions, method and sizes.
+/// @throws InputError if there is no data package with this key
 Json stated_system(const std::filesystem::path& folder);
 
-/// A constant that a dataset states and another one with the same materials does not take over.
+/// A constant that one dataset states and that is not copied to another one with the same
+/// materials.
 struct LeftOverride {
   std::string key;       ///< as in datapackage.json: "stiffness_K"
   double stated = 0.0;   ///< [Pa], [J/m2] or [N/m]
   double derived = 0.0;  ///< what the materials give, in the same unit
 };
 
-/// Removes from `system`, an object as under the key `recoil`, every override that contradicts its
-/// materials (see `derive_contact`): it is what one paper printed and does not follow from the
-/// materials. f0 is compared with eq. 12 after the other overrides are removed, and is removed
-/// together with its `reference_diameter`. A stated 0 (no adhesion) contradicts nothing. A system
-/// that cannot be read is left as it is: its reader says what is wrong.
-/// @param own keys that are stated anew: they are kept, and the others compared with what follows
-///   from them
+/// Removes every override that contradicts the materials (see `derive_contact`) from `system`, an
+/// object as under the key `recoil`, because it is a value that only one paper printed. f0 is
+/// compared with eq. 12 after the other overrides were removed, and is removed together with its
+/// `reference_diameter`. A stated 0 (no adhesion) contradicts nothing. A system that cannot be read
+/// stays unchanged, and its reader reports the mistake.
+/// @param own keys that the user states; they are kept, and the others are compared with them
 std::vector<LeftOverride> leave_out_contradictions(Json& system,
                                                    const std::vector<std::string>& own = {});
 

@@ -93,8 +93,8 @@ class PointReader {
     }
   }
 
-  /// A standard deviation far below the others holds the fit to one point: no impact is measured a
-  /// thousand times better than the middle one.
+  /// Refuses a standard deviation a thousand times below the median, which would force the fit
+  /// through one point.
   void refuse_impossible_sd() const {
     constexpr double most_ratio = 1000.0;
     if (stated_sd_.size() < 3) return;
@@ -114,7 +114,7 @@ class PointReader {
 
   const Column& column(Quantity quantity) const { return *header_[field_of_.at(quantity)]; }
 
-  /// The cell of a quantity; null without such a column and for a cell that says "not known".
+  /// The cell of a quantity; null if there is no such column or the value is missing.
   const CsvField* cell(Quantity quantity) const {
     if (!field_of_.contains(quantity)) return nullptr;
     const CsvField& found = field(quantity);
@@ -158,7 +158,7 @@ class PointReader {
     return value;
   }
 
-  /// A value in SI that has to lie in the range.
+  /// The value in SI, which has to be in the range; nullopt if it is missing.
   std::optional<double> value(Quantity quantity, const Range& range) const {
     const CsvField* const found = cell(quantity);
     if (found == nullptr) return std::nullopt;
@@ -168,10 +168,7 @@ class PointReader {
     if (range.contains(converted)) return converted;
     const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
     if (converted < 0.0 || (converted == 0.0 && range.lower > 0.0)) {
-      const bool optional =
-          quantity == Quantity::restitution_sd || quantity == Quantity::velocity_sd ||
-          quantity == Quantity::setting_velocity_sd || quantity == Quantity::diameter_sd ||
-          quantity == Quantity::series_diameter_sd;
+      const bool optional = name_of(quantity).ends_with("_sd");
       fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
            optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
     }
@@ -201,7 +198,8 @@ class PointReader {
     return stated;
   }
 
-  /// The series of this row: its name together with the conditions that the row states.
+  /// The index of this row's series. Rows with the same name and different conditions have
+  /// different series.
   std::size_t series_index() {
     const CsvField* const name = cell(Quantity::series);
     if (name == nullptr) {
@@ -222,7 +220,7 @@ class PointReader {
     return known->second;
   }
 
-  /// Gives series of one name in the file names with the conditions in which they differ.
+  /// Appends the conditions in which series differ to the names of series with the same name.
   void name_series() {
     std::map<std::string, std::vector<std::size_t>> groups;
     for (std::size_t s = 0; s < dataset_.series.size(); ++s) {
@@ -252,8 +250,8 @@ class PointReader {
     }
   }
 
-  /// e of a point; 0 where all spheres were captured, and where `restitution` or
-  /// `rebound_velocity` is empty beside counts, which then are all that is known.
+  /// The restitution of a point. 0 if all spheres were captured, and if only counts are known
+  /// (`restitution` or `rebound_velocity` is empty beside `events` and `captured`).
   double restitution(ImpactPoint& point) const {
     const bool rebound = field_of_.contains(Quantity::rebound_velocity);
     const Quantity quantity = rebound ? Quantity::rebound_velocity : Quantity::restitution;
@@ -331,7 +329,7 @@ class PointReader {
     const Method method = package_.system.method;
     const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
     if (point.diameter > limits::unusual_diameter && !balls) add(PointRemark::unusual_diameter);
-    // Repeated drops of one setting may give the same reading.
+    // Repeated drops with one setting may give the same reading.
     if (!point.setting.empty()) return;
     if (!seen_.emplace(point.series, point.diameter, point.incident_velocity, point.restitution)
              .second) {
@@ -357,7 +355,7 @@ class PointReader {
   std::vector<StatedSd> stated_sd_;
 };
 
-/// The statements of `package` without points; the checksum is that of the package alone.
+/// The dataset of `package` without points; the checksum is that of the package.
 Dataset without_points(const Package& package, const std::string& package_text,
                        const fs::path& folder) {
   Dataset dataset;
@@ -416,7 +414,7 @@ void require_package(const fs::path& folder) {
   }
 }
 
-/// Does `text` have no line but a header?
+/// True if `text` has at most a header.
 bool has_no_point(const std::string& text) {
   constexpr const char* blank = " \t\r\n";
   const std::size_t header = text.find_first_not_of(blank);

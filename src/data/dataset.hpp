@@ -10,9 +10,9 @@
 
 namespace recoil {
 
-/// The files of a dataset's folder that more than one stage refers to.
+// Names of files in a dataset's folder.
 inline constexpr const char* package_file_name = "datapackage.json";
-/// The recipe of a reconstruction, and its name after other points replaced its own.
+/// The recipe of a reconstruction, and its name after an import has replaced its points.
 inline constexpr const char* recipe_name = "recipe.toml";
 inline constexpr const char* set_aside_recipe_name = "recipe-set-aside.toml";
 
@@ -34,12 +34,12 @@ struct ImpactPoint {
   int events = 1;            ///< impacts averaged in this point, captured ones included
   int captured = 0;          ///< how many of them did not rebound
   bool counted = false;      ///< `captured` is stated: 0 is a count, not unknown
-  bool counts_only = false;  ///< of its rebounds nothing but their number is known
-  /// Points of one setting of the apparatus share its error. Empty without such a column: then
-  /// points of one series, diameter and incident velocity have one setting.
+  bool counts_only = false;  ///< the number of rebounds is known, their velocity is not
+  /// Points with the same setting of the apparatus share its error. Empty without such a column:
+  /// points with equal series, diameter and incident velocity then share a setting.
   std::string setting;
-  /// Successive rows of one launch are successive bounces that were timed at the same instants.
-  /// Empty: the errors of e are independent.
+  /// Successive rows of one launch are successive bounces, and share the times of bounces with
+  /// their errors. Empty: the errors of e are independent.
   std::string launch;
   int line = 0;  ///< line in points.csv, for messages
 
@@ -52,10 +52,10 @@ struct DataColumn {
   std::string unit;  ///< "um"; empty for text
 };
 
-/// What is unusual about a point that is kept nevertheless.
+/// Something unusual about a point, which is kept.
 enum class PointRemark { restitution_above_one, unmarked_zero, unusual_diameter, repeated };
 
-/// All points of one kind.
+/// All points with the same remark.
 struct DatasetWarning {
   PointRemark remark = PointRemark::restitution_above_one;
   std::size_t count = 0;
@@ -68,14 +68,13 @@ struct Dataset {
   std::string title;  ///< for people
   Provenance provenance = Provenance::measured;
   ImpactSystem system;
-  /// Names, in order of appearance. Points of one series in the file that differ in a condition
-  /// are of different series here.
+  /// Names, in order of appearance. Points that have the same series in the file but different
+  /// conditions have different series here.
   std::vector<std::string> series;
   std::vector<Conditions> series_conditions;  ///< as the points of each series state them
   std::vector<ImpactPoint> points;            ///< in file order
   std::vector<DataColumn> columns;            ///< as the schema lists them
-  /// The sizes over which every point averages, if the dataset states them: the diameter of a point
-  /// is then their mean.
+  /// The sizes over which every point averages, if stated. The diameter of a point is their mean.
   std::optional<MeasuredSizes> mixed_sizes;
   std::vector<std::string> sources;      ///< one line each: title and address
   std::vector<DatasetWarning> warnings;  ///< in the order of PointRemark
@@ -83,37 +82,35 @@ struct Dataset {
   std::filesystem::path folder;
 };
 
-/// The conditions of a series: its own, completed by those of all points.
+/// The conditions of a series, and those of the whole dataset where it states none.
 Conditions conditions_of(const Dataset& dataset, std::size_t series);
 
 /// The distinct diameters of the points [m], ascending.
 std::vector<double> distinct_diameters(const Dataset& dataset);
 
-/// The folder's own name, also for "datasets/mica/" and "."; "dataset" where it has none.
+/// The last part of a path, also for "datasets/mica/"; "dataset" if it is empty, "." or "..".
 std::string name_of_folder(const std::filesystem::path& folder);
 
-/// Reads and validates `folder`: `datapackage.json` (Frictionless Data Package) and the CSV
-/// resource that it names. Units are converted here, once.
+/// Reads and validates a dataset: `datapackage.json` (Frictionless Data Package) and the CSV
+/// resource that it names. All units are converted to SI here.
 ///
-/// The mean restitution of a point is that of the events that rebounded; where all `events` were
+/// The restitution of a point is the mean over the events that rebounded. If all `events` were
 /// captured it is 0 or an empty cell. With `rebound_velocity`, e = rebound / incident.
-/// @throws InputError with file, line and column of the first mistake.
+/// @throws InputError with file, line and column of the first mistake
 Dataset load_dataset(const std::filesystem::path& folder);
 
-/// A dataset folder whose points may not be measured yet: where the CSV resource is missing, or has
-/// no line below its header, the dataset has no points, and its checksum is that of the package.
-/// @throws InputError as `load_dataset` does.
+/// Reads a dataset that may have no points yet. If the CSV resource is missing or has only a
+/// header, the dataset has no points, and its checksum is that of the package.
+/// @throws InputError as `load_dataset`
 Dataset load_dataset_to_be_measured(const std::filesystem::path& folder);
 
-/// The same from texts instead of files: `datapackage_text` as it would be in
-/// `folder/datapackage.json`, `csv_text` as in the resource that it names. No file is touched, and
-/// mixed_sizes are left out.
-/// @throws InputError as `load_dataset` does.
+/// Like `load_dataset`, from the texts of `folder/datapackage.json` and of its CSV resource. It
+/// reads no file, and no mixed_sizes.
+/// @throws InputError as `load_dataset`
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder);
 
-/// A sentence for each reconstruction among `datasets`: its recipe made the points, and what is
-/// found in them was put there.
+/// For each reconstruction among `datasets`, a sentence that its points are computed from a recipe.
 std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets);
 
 }  // namespace recoil

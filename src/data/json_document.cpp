@@ -15,8 +15,8 @@ using nlohmann::json;
 
 constexpr int deepest_nesting = 64;
 
-/// Reads objects and lists with the place of every value. Strings, numbers and words inside of them
-/// are read by the JSON library.
+/// Parses objects and lists and records the place of every value. The JSON library parses strings,
+/// numbers and words.
 class Parser {
  public:
   Parser(std::string_view text, const std::string& file) : text_(text), file_(file) {}

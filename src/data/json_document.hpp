@@ -11,7 +11,7 @@ namespace recoil {
 
 /// A value of a JSON text and its place.
 struct JsonValue {
-  nlohmann::json scalar;            ///< of an object or a list: {} or [], for its type
+  nlohmann::json scalar;            ///< {} or [] for an object or a list
   std::string key;                  ///< of a member; empty for list items and the root
   std::size_t key_at = 0;           ///< offset of the key [bytes]
   std::size_t at = 0;               ///< offset of the value [bytes]
@@ -20,31 +20,31 @@ struct JsonValue {
 
 class JsonDocument;
 
-/// One value of a JsonDocument: typed access in which every mistake knows its line and column.
-/// It points into its document, which has to live longer.
+/// Typed access to one value of a JsonDocument. Every error has line and column. The document has
+/// to outlive it.
 class JsonNode {
  public:
   JsonNode(const JsonDocument& document, const JsonValue& value, std::string name)
       : document_(&document), value_(&value), name_(std::move(name)) {}
 
-  /// The member `key`, if there is one. @throws InputError when this is not an object.
+  /// The member `key`, if there is one. @throws InputError if this is not an object
   std::optional<JsonNode> find(const std::string& key) const;
 
-  /// The member `key`. @throws InputError when it is missing; `suggestion` says what to write.
+  /// The member `key`. @throws InputError with `why` and `suggestion` if it is missing
   JsonNode require(const std::string& key, const std::string& why,
                    const std::string& suggestion) const;
 
-  /// All members of an object in the order of the file. @throws InputError when it is not one.
+  /// All members of an object in the order of the file. @throws InputError if this is not an object
   std::vector<JsonNode> members() const;
 
-  /// All items of a list. @throws InputError when this is not a list.
+  /// All items of a list. @throws InputError if this is not a list
   std::vector<JsonNode> items() const;
 
   bool is_object() const { return value_->scalar.is_object(); }
-  /// A string, a number, true, false or null; for a list or an object it is empty.
+  /// A string, a number, true, false or null; empty for a list or an object.
   const nlohmann::json& scalar() const { return value_->scalar; }
 
-  /// @throws InputError when this is not a string (a number).
+  /// @throws InputError if this is not a string (a number)
   std::string string() const;
   double number() const;
 
@@ -70,8 +70,8 @@ class JsonNode {
   std::string name_;
 };
 
-/// A JSON text (RFC 8259) with the place of every value. A key that appears twice in an object is
-/// refused, since one of them would be ignored.
+/// A JSON text (RFC 8259) with the place of every value. It refuses a key that appears twice in an
+/// object, because one of the two would be ignored.
 class JsonDocument {
  public:
   /// @throws InputError with line and column when the text is not JSON or nested too deeply.

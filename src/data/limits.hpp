@@ -5,23 +5,22 @@
 
 namespace recoil {
 
-/// The values in SI units that a quantity may have.
+/// The range of accepted values of a quantity, in SI units.
 struct Range {
   double lower = 0.0;
   double upper = 0.0;
   std::string_view unit = "1";
-  std::string_view hint = "correct it";  ///< what to do about a value outside
-  std::string_view hint_below = "";      ///< about one below `lower`, where that differs
+  std::string_view hint = "correct it";  ///< suggestion for a value outside
+  std::string_view hint_below = "";      ///< suggestion for a value below `lower`, if different
 
   constexpr bool contains(double value) const { return value >= lower && value <= upper; }
   /// "it has to lie between 1e-09 and 1 m"
   std::string sentence() const;
-  /// What to do about `value`, which lies outside.
+  /// The suggestion for `value`, which is outside.
   std::string hint_for(double value) const;
 };
 
-/// The limits are far outside of anything that the Hertz model describes. They catch values in a
-/// wrong unit.
+/// These limits are far beyond the validity of the Hertz model. They catch values in a wrong unit.
 namespace limits {
 
 /// From a nanometre, below which there is no continuum, to a metre.
@@ -42,7 +41,7 @@ inline constexpr Range velocity_sd{1e-10, 1e4, "m/s", "check the unit",
 /// Noise can bring a restitution above 1, but not beyond 1.2.
 inline constexpr Range restitution{0.0, 1.2, "1",
                                    "correct it; a restitution in per cent has the unit %"};
-/// One standard deviation; below the lower end it is the rounding of e.
+/// One standard deviation; the lower end is far below the rounding of e.
 inline constexpr Range restitution_sd{1e-12, 1.0, "1", "a deviation in per cent has the unit %",
                                       "leave the cell empty when it is not known"};
 

@@ -11,15 +11,15 @@ namespace recoil {
 /// A common material of spheres and surfaces, with one standard deviation of each constant.
 struct TabledMaterial {
   std::string_view name;
-  std::string_view what;           ///< which kind of it the values belong to
-  double density = 0.0;            ///< [kg/m3], known to `density_error`
-  double lowest_modulus = 0.0;     ///< Young's modulus [Pa]: the range that the source gives
-  double highest_modulus = 0.0;    ///< [Pa]; equal to the lowest where it gives one value
+  std::string_view what;           ///< grade or composition
+  double density = 0.0;            ///< [kg/m3], with the error `tabled_density_error`
+  double lowest_modulus = 0.0;     ///< Young's modulus [Pa]: lower end of the source's range
+  double highest_modulus = 0.0;    ///< [Pa]; equal to the lowest if the source gives one value
   double poisson_ratio = 0.0;      ///< [1]
   double poisson_ratio_sd = 0.01;  ///< [1]
 
   double youngs_modulus() const { return 0.5 * (lowest_modulus + highest_modulus); }
-  /// That of a uniform distribution over the range; 2 % of a single value.
+  /// The standard deviation of a uniform distribution over the range; 2 % of a single value [Pa].
   double youngs_modulus_sd() const;
 };
 
@@ -34,8 +34,8 @@ inline constexpr std::string_view tabled_materials_source =
     "Callister, W. D. & Rethwisch, D. G. (2008). Fundamentals of Materials Science and "
     "Engineering, 3rd ed., Wiley, tables B.1 to B.3";
 
-/// The material as a dataset states it. @throws InputError for an unknown name, with the nearest
-/// one. @param option names it in messages: "--particle"
+/// The material as an object of datapackage.json. @param option for messages: "--particle"
+/// @throws InputError for an unknown name
 Json tabled_material(const std::string& name, const std::string& option);
 
 }  // namespace recoil

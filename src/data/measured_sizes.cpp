@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_sizes = 2000;
 constexpr Range plane_height{0.0, 1.0, "m", "give it in m: 1 mm is 0.001"};
 
-/// Reads the rows below a header that names the columns.
+/// Reads a table of sizes.
 class SizesReader {
  public:
   SizesReader(std::string file, double factor) : file_(std::move(file)), factor_(factor) {}
@@ -115,7 +115,8 @@ std::string text_under(const JsonNode& node, const char* key) {
   return found ? printable(found->string()) : std::string();
 }
 
-/// Reads what the package beside the file says about it. @returns the unit, empty if not stated.
+/// Reads the description of the file in the data package beside it.
+/// @returns the unit of the diameters, empty if not stated
 std::string read_resource_beside(const fs::path& file, MeasuredSizes& sizes) {
   const fs::path package = file.parent_path() / package_file_name;
   std::error_code failed;

@@ -17,10 +17,10 @@ double bounded(const JsonNode& node, const Range& range) {
             range.sentence(), range.hint_for(value));
 }
 
-/// A standard deviation of a factor of e^3 either way says nothing about a constant [1].
+/// A larger relative standard deviation states nothing about a constant [1].
 constexpr double largest_relative_error = 3.0;
 
-/// The `sd` of { "value": ..., "sd": ... } or { "value": ..., "relative_sd": ... }.
+/// The standard deviation of { "value": ..., "sd": ... } or { "value": ..., "relative_sd": ... }.
 double stated_sd(const JsonNode& node, double value) {
   const auto sd = node.find("sd");
   const auto relative = node.find("relative_sd");
@@ -49,7 +49,7 @@ double stated_sd(const JsonNode& node, double value) {
   return size;
 }
 
-/// A constant that may state its error: a bare number, or an object whose `value` is that number.
+/// Reads a constant that may state its error: a number, or an object with `value` and error.
 template <class Read>
 double uncertain_constant(const JsonNode& node, Body body, Constant which, ImpactSystem& system,
                           const Read& read) {
@@ -75,7 +75,7 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   std::vector<std::string> keys = {"material",       "density",  "youngs_modulus", "poisson_ratio",
                                    "surface_energy", "hardness", "yield_strength"};
   if (body == Body::surface) keys.insert(keys.end(), {"relative_permittivity", "diameter"});
-  if (body == Body::particle) keys.emplace_back("temperature");  // kept in the file for its reader
+  if (body == Body::particle) keys.emplace_back("temperature");  // checked, but not used
   node.allow_only(keys);
   const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
@@ -101,7 +101,7 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
     system.surface_diameter = bounded(*diameter, limits::diameter);
     node.require("density", "a surface with a diameter is a sphere, and its mass follows from it",
                  "give it in kg/m3, or leave out the diameter of a flat");
-    // The mass that moves is no power of the densities of two spheres.
+    // The reduced mass of two spheres is no power of their densities.
     for (const ConstantError& error : system.errors) {
       if (error.constant != Constant::density) continue;
       node.fail("two spheres, one with an uncertain density",

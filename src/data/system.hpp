@@ -13,7 +13,7 @@ namespace recoil {
 
 class JsonNode;
 
-/// Where points come from. It accompanies everything computed from them.
+/// The origin of points. It accompanies everything computed from them.
 enum class Provenance { measured, digitised, reconstruction, synthetic };
 template <>
 struct NamesOf<Provenance> {
@@ -21,7 +21,7 @@ struct NamesOf<Provenance> {
                                                             "reconstruction", "synthetic"};
 };
 
-/// How velocities were measured: it decides which errors of the measurement are possible.
+/// How velocities were measured, which determines the possible errors of measurement.
 enum class Method { unknown, velocimeter, drop_heights, bounce_intervals, video };
 template <>
 struct NamesOf<Method> {
@@ -29,7 +29,7 @@ struct NamesOf<Method> {
       "unknown", "velocimeter", "drop_heights", "bounce_intervals", "video"};
 };
 
-/// What an experimenter can set beside velocities, diameters and materials.
+/// A condition of the experiment besides velocities, diameters and materials.
 enum class Condition {
   ambient_pressure,       ///< of the surrounding air; 0 is vacuum [Pa]
   relative_humidity,      ///< [1]
@@ -52,11 +52,11 @@ struct NamesOf<Condition> {
 /// The values of a condition.
 struct ConditionInfo : Range {
   std::string_view meaning;
-  bool yes_or_no = false;  ///< 1 or 0, and nothing between
+  bool yes_or_no = false;  ///< only 0 or 1 is accepted
 };
 const ConditionInfo& info_of(Condition condition);
 
-/// The stated conditions of a group of impacts.
+/// The stated conditions of impacts.
 class Conditions {
  public:
   std::optional<double> of(Condition condition) const {
@@ -79,7 +79,7 @@ class Conditions {
 enum class Body {
   particle,
   surface,
-  pair  ///< both together: a constant that the dataset states instead of deriving it
+  pair  ///< both: a constant of the contact that the dataset states directly
 };
 template <>
 struct NamesOf<Body> {
@@ -104,7 +104,7 @@ struct NamesOf<Constant> {
       "gilman_factor", "stiffness_K",    "adhesion_energy", "adhesion_force_f0"};
 };
 
-/// Is a constant positive, and its error a factor? All are but Poisson's ratio.
+/// True for all constants except Poisson's ratio: they are positive, and their errors are factors.
 constexpr bool is_positive(Constant constant) { return constant != Constant::poisson_ratio; }
 
 /// The error that a dataset states for one of its constants.
@@ -132,14 +132,14 @@ struct Material {
     if (yield_strength) return 2.8 * *yield_strength;
     return std::nullopt;
   }
-  /// Is it an elastomer or a foam, which does not flow? Their Young's moduli lie below 0.1 GPa,
-  /// those of other polymers above (Ashby, M. F. 2011, Materials Selection in Mechanical Design,
-  /// 4th ed., figure 4.3). What states a strength flows.
+  /// True for an elastomer or a foam, which does not yield: Young's modulus below 0.1 GPa, while
+  /// that of other polymers is larger (Ashby, M. F. 2011, Materials Selection in Mechanical Design,
+  /// 4th ed., figure 4.3). A material with a stated strength yields.
   bool is_elastomer() const { return !yield_pressure() && youngs_modulus < 1e8; }
 };
 
-/// The two bodies of an impact, what the dataset states instead of deriving it, and the conditions
-/// of all its points.
+/// The two bodies of an impact, the constants of the contact that the dataset states directly, and
+/// the conditions of all points.
 struct ImpactSystem {
   Material particle;
   Material surface;
@@ -162,8 +162,8 @@ struct ImpactSystem {
 /// @throws InputError at the value, or when it is missing.
 Provenance read_provenance(const JsonNode& recoil);
 
-/// The two materials, the overrides and the conditions of that object. Unknown keys are refused.
-/// @throws InputError at the key or value that is missing or physically impossible.
+/// The materials, overrides and conditions of the object under the key `recoil`. Unknown keys are
+/// refused. @throws InputError at a key or value that is missing or physically impossible
 ImpactSystem read_system(const JsonNode& recoil);
 
 }  // namespace recoil

@@ -10,7 +10,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t longest_word = 40;  // [characters] of one that a message repeats
+constexpr std::size_t longest_word = 40;  // in a message [characters]
 
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);

@@ -11,44 +11,43 @@
 
 namespace recoil {
 
-/// The place of byte `offset` of `text`. Lines end with LF, CR or CR LF; columns count characters
-/// (UTF-8 code points), as editors do. An offset behind the end is taken as the end.
+/// The place of byte `offset` of `text`. Lines end with LF, CR or CR LF. Columns count UTF-8 code
+/// points, as editors do. An offset beyond the end is taken as the end.
 Location locate(std::string_view text, std::size_t offset, const std::string& file);
 
-/// Refuses what is not text. Names and titles travel into JSON and HTML, where bytes that are not
-/// UTF-8 would break the result, so they stop here.
-/// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629).
+/// Checks that `text` is UTF-8, because JSON and HTML results repeat names and titles.
+/// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629)
 void require_text(std::string_view text, const std::string& file);
 
 /// `text` without the blanks, tabs and carriage returns around it.
 std::string_view trimmed(std::string_view text);
 
-/// The first `longest` characters of `text`, with dots when there are more.
+/// The first `longest` characters of `text`, followed by dots if there are more.
 std::string shortened(std::string_view text, std::size_t longest);
 
 /// `word` between single quotes, cut to 40 characters: for messages.
 std::string quote(std::string_view word);
 
-/// "did you mean 'x'?" when a known word is near, else "known: a, b, c".
+/// "did you mean 'x'?" if a known word is near, otherwise "known: a, b, c".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
-/// The factor to SI of `unit`. @param of what has this unit, for the message
-/// @throws InputError when the unit is unknown or measures something else.
+/// The factor to SI of `unit`. @param of name of the quantity, for the message
+/// @throws InputError if the unit is unknown or does not belong to `dimension`
 double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
                     const Location& where);
 
-/// The unit after a number in a message: " m/s"; empty for a pure number (unit "1" or none).
+/// The unit after a number in a message: " m/s"; empty for a pure number ("1" or "").
 std::string unit_suffix(std::string_view unit);
 
-/// "a, b, c and 7 more": words of a user's file for a message that has to stay readable, each
-/// printable and cut to 40 characters, some 400 characters in all.
+/// "a, b, c and 7 more": a list of words for a message, each printable and cut to 40 characters, at
+/// most about 400 characters in all.
 std::string listed(const std::vector<std::string>& words);
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);
 
-/// The finite decimal number that `text` consists of, blanks around it apart; nullopt for anything
-/// else (nan, inf, overflow, trailing characters, a decimal comma).
+/// Parses a finite decimal number with blanks around it; nullopt for any other text (nan, inf,
+/// overflow, trailing characters, a decimal comma).
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace recoil

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int longest_key = 16;  // parts of a dotted key
 
-/// The end of the string that begins at `begin`, on its last quotation mark.
+/// The place of the last quotation mark of the string that begins at `begin`.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const std::string three(3, text[begin]);
   const bool of_lines = text.substr(begin).starts_with(three);
@@ -29,9 +29,9 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-/// Refuses dotted keys that are longer than any file needs. Every part nests the tables deeper, and
-/// the TOML library destroys tables by recursion, so that 40,000 parts would overflow the stack.
-/// The library itself limits how deep lists and tables in brackets are nested.
+/// Refuses long dotted keys. Every part of a key nests the tables deeper, and the TOML library
+/// destroys tables by recursion, so that 40,000 parts would overflow the stack. The library limits
+/// the nesting of lists and tables in brackets.
 void refuse_long_keys(std::string_view text, const std::string& file) {
   int parts = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {

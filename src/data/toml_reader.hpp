@@ -10,8 +10,7 @@
 
 namespace recoil {
 
-/// Reads values of a TOML file that a user wrote. Every mistake throws an InputError with file,
-/// line and column.
+/// Reads values of a TOML file. Every mistake throws an InputError with file, line and column.
 class TomlReader {
  public:
   explicit TomlReader(std::string file) : file_(std::move(file)) {}
@@ -19,7 +18,7 @@ class TomlReader {
   const std::string& file() const { return file_; }
   Location at(const toml::source_region& region) const;
 
-  /// The whole file. @throws InputError when `text` is not TOML, not UTF-8 or nested too deeply
+  /// Parses the file. @throws InputError if `text` is not TOML, not UTF-8 or nested too deeply
   toml::table parse(const std::string& text) const;
 
   [[noreturn]] void fail(const toml::node& node, const std::string& problem, const std::string& why,
@@ -31,7 +30,7 @@ class TomlReader {
   void allow_only(const toml::table& table, const std::string& name,
                   const std::vector<std::string>& known) const;
 
-  /// The table `name` of `parent`, or null when there is none.
+  /// The table `name` of `parent`; null if there is none.
   const toml::table* table(const toml::table& parent, const std::string& name) const;
   const toml::table& table(const toml::node& node, const std::string& name) const;
   const toml::array& array(const toml::node& node, const std::string& name,

@@ -40,7 +40,7 @@ std::vector<Arrival> arrivals_of(const std::vector<Passage>& passages, const Pai
   return arrivals;
 }
 
-/// Edges of the size classes; outer ones hold everything when they were not stated.
+/// Edges of the size classes: the stated ones, or quantiles that include all spheres.
 std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
                                 const AverageOptions& options) {
   if (!options.size_edges.empty()) return options.size_edges;
@@ -56,8 +56,8 @@ std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
   return edges;
 }
 
-/// Where bins of sorted velocities begin, and their number at the end.
-/// @param error relative standard deviation of one velocity.
+/// The first indices of the bins of sorted velocities, and the number of velocities at the end.
+/// @param error relative standard deviation of one velocity
 std::vector<std::size_t> cuts(const std::vector<Arrival>& sorted, std::size_t per_bin,
                               double error) {
   constexpr double widest_gap = 4.0;     // errors
@@ -72,7 +72,7 @@ std::vector<std::size_t> cuts(const std::vector<Arrival>& sorted, std::size_t pe
   for (std::size_t part = 0; part + 1 < parts.size(); ++part) {
     const std::size_t first = parts[part];
     const std::size_t n = parts[part + 1] - first;
-    // The middle nine tenths: of one velocity with normal errors they span 3.3 errors.
+    // The central 90 %. For a single velocity with normal errors its width is 3.3 errors.
     const double width = std::log(sorted[first + (19 * (n - 1)) / 20].velocity /
                                   sorted[first + (n - 1) / 20].velocity);
     const std::size_t by_number = std::max<std::size_t>((n + per_bin / 2) / per_bin, 1);
@@ -90,7 +90,7 @@ struct Moments {
   double sd = 0.0;
 };
 
-/// Mean and deviation of the known values, which are not negative.
+/// Mean and standard deviation of the values that are known (not negative).
 template <class Value>
 Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
                    const Value& value) {
@@ -99,12 +99,12 @@ Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size
     if (const double x = value(all[i]); x >= 0.0) known.push_back(x);
   }
   const Moments result = {mean(known), standard_deviation(known)};
-  return result.sd < 1e-9 * result.mean ? Moments{result.mean, 0.0} : result;  // but for rounding
+  return result.sd < 1e-9 * result.mean ? Moments{result.mean, 0.0} : result;  // rounding only
 }
 
-/// Divides the unpaired of a bin among lost, too slow and captured.
-/// @param by_accident how improbable an excess has to be.
-void sort_unpaired(PointMean& point, double lost_share, double height, double by_accident) {
+/// Divides the unpaired passages of a bin among lost, too slow and captured.
+/// @param largest_p an excess of unpaired passages is captured if its probability is below this
+void sort_unpaired(PointMean& point, double lost_share, double height, double largest_p) {
   const auto unpaired = static_cast<double>(point.unpaired);
   const auto rebounds = static_cast<double>(point.rebounds);
   const double expected = rebounds * lost_share / (1.0 - lost_share);
@@ -121,8 +121,8 @@ void sort_unpaired(PointMean& point, double lost_share, double height, double by
   const double explained = certain + point.too_slow;
   point.lost = std::min(certain, unpaired);
   point.too_slow = std::min(point.too_slow, unpaired - point.lost);
-  if (poisson_at_least(point.unpaired, explained) >= by_accident) return;
-  // Where hardly any rebound could climb to the plane, none seen says nothing of capture.
+  if (poisson_at_least(point.unpaired, explained) >= largest_p) return;
+  // If few rebounds could reach the plane, the absence of rebounds does not indicate capture.
   constexpr double most_hidden = 0.5;
   if (point.rebounds < 5 && flight::slowest_return(height) > most_hidden * point.velocity) return;
   const double rest = std::round(unpaired - explained);
@@ -151,9 +151,9 @@ PointMean mean_of(const std::vector<Arrival>& sorted, std::size_t begin, std::si
   return point;
 }
 
-/// The share of unpaired among the fastest quarter of each series: the lost share cannot be larger
-/// unless slow rebounds are lost less.
-void look_at_fastest(std::vector<Arrival> arrivals, Averages& result) {
+/// Computes the share of unpaired among the fastest quarter of each series. The lost share cannot
+/// be larger unless the instrument misses fewer of the slow rebounds.
+void count_fastest(std::vector<Arrival> arrivals, Averages& result) {
   std::ranges::sort(arrivals, [](const Arrival& a, const Arrival& b) {
     return a.series < b.series || (a.series == b.series && a.velocity < b.velocity);
   });
@@ -185,7 +185,7 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
                  const PairingResult& pairs, const AverageOptions& options) {
   Averages result;
   std::vector<Arrival> arrivals = arrivals_of(passages, pairs);
-  look_at_fastest(arrivals, result);
+  count_fastest(arrivals, result);
   result.lost_share = std::min(pairs.options.lost_share.value_or(pairs.missed_share), 0.9);
   result.narrowest = 6.0 * pairs.velocity_spread;
   const std::vector<double> edges = class_edges(arrivals, options);

@@ -14,9 +14,9 @@ constexpr double gas_constant = 287.05;  // of air [J/(kg K)]
 constexpr double fastest_launch = 1e6;   // [m/s]
 constexpr double root_tolerance = 1e-12;
 
-// The integrals over the velocity go over y, in panels of this width: v = v_t (exp(y^2) - 1) on the
-// way up and v_t (1 - exp(-y^2)) on the way down. At the last y of the way down v is the terminal
-// speed but for exp(-20.25) = 1.6e-9.
+// The integrals over the velocity use the variable y, in panels of this width: v = v_t (exp(y^2) -
+// 1) on the way up and v_t (1 - exp(-y^2)) on the way down. At the last y of the way down, v
+// differs from the terminal speed by the relative amount exp(-20.25) = 1.6e-9.
 constexpr double panel_width = 0.25;
 constexpr double last_y = 4.5;
 
@@ -65,7 +65,7 @@ double AirFlight::deceleration(double speed) const {
 AirFlight::Part AirFlight::rise(double speed) const {
   Part part{0.0, 0.0, speed};
   const double end = std::sqrt(std::log1p(speed / terminal_));
-  if (!std::isfinite(end)) {  // a sphere that air holds at once
+  if (!std::isfinite(end)) {  // the air stops the sphere at once
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return {infinity, infinity, speed};
   }

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes the magnitudes of velocities whose signs tell the direction: all that come in have one
-/// sign, all that leave the other one.
+/// Takes the magnitudes of signed velocities: all incident ones have one sign, all rebound ones the
+/// other.
 void drop_signs(const ImportTable& table, ImportedPoints& out) {
   const auto count = [&](Quantity quantity, auto sign) {
     return std::ranges::count_if(out.points, [&](const ImportedPoint& point) {
@@ -48,8 +48,8 @@ void drop_signs(const ImportTable& table, ImportedPoints& out) {
   out.notes.push_back({ImportRemark::signed_velocities});
 }
 
-/// Standard deviations of single impacts become those of the means. @throws InputError where it is
-/// not known which of the two they are
+/// Converts standard deviations of single impacts to those of means.
+/// @throws InputError if it is not known which of the two they are
 void settle_deviations(const ImportRequest& request, const ImportTable& table,
                        std::vector<ImportedPoint>& points) {
   for (const Quantity quantity : {Quantity::restitution_sd, Quantity::velocity_sd}) {
@@ -76,8 +76,8 @@ void settle_deviations(const ImportRequest& request, const ImportTable& table,
   }
 }
 
-/// Any table: its quantities are those of a dataset.
-/// @param units of columns, as the replaced dataset states them
+/// Reads any table whose quantities are those of a dataset.
+/// @param units of the columns of the replaced dataset
 ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& units) {
   std::vector<ImportQuantity> known;
   for (const Quantity quantity : values_of<Quantity>()) {
@@ -154,8 +154,8 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
   }
 }
 
-/// Throws an error of the dataset that is not written yet again, with the line of the imported file
-/// from which the point comes.
+/// Throws `error`, which is about the dataset to be written, with the line of the imported file
+/// instead.
 [[noreturn]] void fail_in_source(const InputError& error, const ImportRequest& request,
                                  const fs::path& points_file,
                                  const std::vector<ImportedPoint>& points) {
@@ -184,8 +184,7 @@ void refuse_existing(const ImportRequest& request) {
   }
 }
 
-/// Refuses points of the reconstruction that is to be replaced: importing does not make them
-/// digitised.
+/// Refuses points of the reconstruction that is to be replaced: they are not digitised.
 void refuse_reconstructed_points(const ImportRequest& request, const Dataset& imported) {
   const Dataset before = load_dataset(request.into);
   const auto known = [&](const ImpactPoint& point) {
@@ -204,7 +203,7 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
       "import points of an experiment, or give --provenance synthetic");
 }
 
-/// Renames the recipe of a former reconstruction, so that it does not count as the folder's own.
+/// Renames the recipe of a former reconstruction, which no longer belongs to the points.
 void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   std::error_code failed;
   if (!fs::exists(folder / recipe_name, failed)) return;
@@ -216,12 +215,13 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   notes.push_back({ImportRemark::recipe_set_aside});
 }
 
-/// Is adhesion too weak to be seen in any point? Balls from 1 mm on whose adhesion takes less than
-/// 1e-6 of the energy of every impact: the work of separation of Johnson, Kendall & Roberts (1971),
-/// 7.09 (W^5 R^4 / E*^2)^(1/3), over m V^2 / 2, with W of Gilman's estimate. Stated adhesion stays.
-bool adhesion_is_unseen(const ImportRequest& request, const Json& system, const Dataset& dataset) {
+/// True if the dataset states no adhesion and it is negligible in every point: the diameter is at
+/// least 1 mm, and the work of separation of Johnson, Kendall & Roberts (1971), 7.09 (W^5 R^4 /
+/// E*^2)^(1/3), with Gilman's estimate of W, is below 1e-6 of the incident energy m V^2 / 2.
+bool adhesion_is_negligible(const ImportRequest& request, const Json& system,
+                            const Dataset& dataset) {
   constexpr double smallest_ball = 1e-3;  // [m]
-  constexpr double unseen = 1e-6;
+  constexpr double negligible = 1e-6;
   if (request.adhesion_energy || system.contains("adhesion_energy") ||
       system.contains("adhesion_force_f0") || system["particle"].contains("surface_energy") ||
       system["surface"].contains("surface_energy")) {
@@ -236,7 +236,7 @@ bool adhesion_is_unseen(const ImportRequest& request, const Json& system, const 
     const double work = 7.09 * std::cbrt(std::pow(contact.adhesion_energy, 5) *
                                          std::pow(0.5 * diameter, 4) / (modulus * modulus));
     const double velocity = point.incident_velocity;
-    return work < unseen * 0.5 * sphere_mass(diameter, density) * velocity * velocity;
+    return work < negligible * 0.5 * sphere_mass(diameter, density) * velocity * velocity;
   });
 }
 
@@ -264,7 +264,7 @@ ImportResult import_points(const ImportRequest& request) {
   } catch (const InputError& error) {
     fail_in_source(error, request, points_file, imported.points);
   }
-  if (adhesion_is_unseen(request, system, result.dataset)) {
+  if (adhesion_is_negligible(request, system, result.dataset)) {
     system["adhesion_energy"] = 0.0;
     std::vector<ImportNote> again;
     package = imported_package(request, system, points, existing, again);
@@ -275,8 +275,8 @@ ImportResult import_points(const ImportRequest& request) {
       result.dataset.provenance != Provenance::synthetic) {
     refuse_reconstructed_points(request, result.dataset);
   }
-  // The points are written first: if the program ends in between, the old label claims no more than
-  // the new points are, and without a package the folder is not yet a dataset.
+  // The points are written first. If the program ends in between, the folder has the old
+  // provenance, or, without a package, is no dataset yet.
   require_writable_folder(request.into);
   write_whole_files({{points_file, points.csv}, {request.into / package_file_name, package}},
                     request.replace ? Replacing::data : Replacing::results);

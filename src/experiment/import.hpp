@@ -29,38 +29,37 @@ struct NamesOf<ImportFormat> {
                                                             "intervals", "csv", "track"};
 };
 
-/// What to import, and what the file does not state, as on the command line. Values with units are
-/// words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
+/// The file to import and the information that it lacks, as on the command line. Values with units
+/// are words such as "4.9um"; errors are "2%" (of the value) or "0.5mm".
 struct ImportRequest {
   std::filesystem::path file;
-  std::string text;  ///< what is in the file, where it is not to be read
+  std::string text;  ///< the content to import instead of reading `file`; empty: none
   ImportFormat format = ImportFormat::csv;
   std::filesystem::path into;  ///< the dataset's folder
   bool replace = false;        ///< replace the points of the dataset in the folder
 
   std::vector<std::string> map;  ///< "quantity=column:unit"
   bool decimal_comma = false;    ///< numbers are written 2,5
-  std::string
-      sd_of;  ///< restitution_sd is that of "one" impact, or of their "mean"; "": not stated
+  std::string sd_of;  ///< restitution_sd is of "one" impact, of the "mean", or "": unknown
   std::vector<std::string> diameters;  ///< "4.9um" for all, "SERIES=4.9um" for one
   std::string diameter_error;
   std::string series;  ///< name of the series when the file has none
 
-  /// A JSON file, a name of the table of materials, both with "key=value" of other constants behind
-  /// a name, or "material=...,density=...,youngs_modulus=...".
+  /// A JSON file, a name of the table of materials ("steel", or "steel,density=7700" with changed
+  /// constants), or "material=...,density=...,youngs_modulus=...".
   std::string particle;
   std::string surface;
   std::filesystem::path like;             ///< a dataset whose materials are the same
   std::optional<double> adhesion_energy;  ///< [J/m2]; 0: no adhesion
 
-  std::optional<Provenance> provenance;  ///< if not stated, that of the format
+  std::optional<Provenance> provenance;  ///< empty: that of the format
   std::string title;
   std::vector<std::string> sources;
 
   std::vector<std::string> axes;          ///< "x=log,1,100" or "y=linear,0,1,600px"
   std::vector<std::string> error_series;  ///< "SERIES=UPPER" or "SERIES=UPPER,LOWER": ends of bars
   std::string reading_error;              ///< "0.5%" of an axis, or "2px"
-  std::string scatter;                    ///< of e, in addition to the errors of the reading
+  std::string scatter;                    ///< of e, in addition to reading errors
   double captured_below = 0.0;            ///< a restitution below this is a capture [1]
 
   std::string drop_error, rebound_error;   ///< of the heights
@@ -71,27 +70,27 @@ struct ImportRequest {
   std::optional<double> temperature;       ///< [K]
   std::optional<double> fps;               ///< frames per second of a track [1/s]
   std::string scale;                       ///< length of a pixel of a track: "0.4mm"
-  std::string method;                      ///< how velocities were measured, if not by the format
+  std::string method;                      ///< how velocities were measured; empty: by the format
   std::vector<std::string> conditions;     ///< "target_thickness=5mm"
 };
 
-/// An assumption, an omission or the result of a check.
+/// A note about an import: an assumption, an omission or the result of a check.
 enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
   workbook_converted,    ///< `names`: the program that made a table of its first sheet
   lines_skipped,         ///< `names`: comments, and titles above the header
-  rows_left_out,         ///< `names`: a cell that is needed is empty
-  signed_velocities,     ///< directions were told by signs; their magnitudes were taken
+  rows_left_out,         ///< `names`: a needed cell is empty
+  signed_velocities,     ///< velocities were signed; their magnitudes were taken
   diameter_not_used,     ///< --diameter, though every point has its own
-  diameters_from_names,  ///< `names`: the series whose names hold their diameters
+  diameters_from_names,  ///< `names`: the series whose names contain their diameters
   columns_not_used,      ///< `names`
   no_reading_error,      ///< of a figure
   reading_error_alone,   ///< restitution_sd holds no scatter of the experiment
   few_drops,             ///< fewer than five from some heights
   no_drop_error,
   without_air,             ///< heights: V = sqrt(2 g h)
-  same_point,              ///< heights: both of the same point of the ball
-  air_drag,                ///< `air`: the effect of the air's drag on e
+  same_point,              ///< heights: both have to refer to the same point of the ball
+  air_drag,                ///< `air`: the effect of air drag on e
   turbulent_air,           ///< `air`: faster than the range of the drag law
   bounces_missing,         ///< `count` pairs of intervals left out
   release_heights,         ///< `releases`: a check of them
@@ -99,31 +98,31 @@ enum class ImportRemark {
   bounces_suspected,       ///< `names`: places where a bounce may be missing
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
-  impacts_skipped,         ///< tracks: `count` without enough of a flight on either side
-  track_fall,              ///< tracks: `fall` is not `gravity`
-  drag_stays,              ///< tracks: the drag of the air is not taken out
+  impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
+  track_fall,              ///< tracks: `fall` differs from `gravity`
+  drag_stays,              ///< tracks: air drag is not corrected
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
   overrides_left_out,  ///< `left_out`: they contradict the materials
-  adhesion_left_out,   ///< nothing is stated of it, and it is too weak to change e of these balls
+  adhesion_left_out,   ///< it is not stated, and is negligible for these balls
 };
 
-/// Launches from one stated height, if their first bounces were like their second ones.
+/// A check of a release height, which assumes that e of the first and second bounces are equal.
 struct ReleaseCheck {
   double height = 0.0;   ///< as stated [m]
   double first = 0.0;    ///< mean e of the first bounce, with the stated height [1]
   double second = 0.0;   ///< mean e of the second [1]
-  double missing = 0.0;  ///< by how much the ball seems to have fallen farther [m]
+  double missing = 0.0;  ///< apparent height of the fall less the stated one [m]
 };
 
-/// The effect of the drag of the air on a restitution that is read without it.
+/// The relative error of e if air drag is neglected.
 struct AirShare {
   double pressure = 0.0;                ///< [Pa]
   double temperature = 0.0;             ///< [K]
-  double slow = 0.0, slow_share = 0.0;  ///< slowest impact [m/s], by which part of e too low [1]
-  double fast = 0.0, fast_share = 0.0;  ///< the same of the fastest
-  double reynolds = 0.0;                ///< the largest
+  double slow = 0.0, slow_share = 0.0;  ///< slowest impact [m/s], and how much e is too low [1]
+  double fast = 0.0, fast_share = 0.0;  ///< the same for the fastest impact
+  double reynolds = 0.0;                ///< largest Reynolds number [1]
 };
 
 struct ImportNote {
@@ -137,23 +136,22 @@ struct ImportNote {
   double gravity = 0.0;  ///< [m/s2]
 };
 
-/// What was written.
+/// The result of an import.
 struct ImportResult {
-  Dataset dataset;  ///< as `load_dataset` reads it
+  Dataset dataset;  ///< the written dataset as `load_dataset` reads it
   std::vector<ImportNote> notes;
 };
 
-/// Reads the points, makes them a dataset and writes it into the folder: points.csv, then
-/// datapackage.json, each whole or not at all; nothing is written before both are known to be
-/// valid.
+/// Reads the points, makes a dataset of them, validates it and writes it into the folder, first
+/// points.csv and then datapackage.json, each as a whole.
 ///
 /// With `replace` the existing package keeps its name, its materials and its other resources. An
-/// override of K, W_A or f0 that contradicts the materials is never taken over, neither from it nor
-/// from `like`. The recipe.toml of a reconstruction is renamed to recipe-set-aside.toml: it is no
-/// longer the folder's recipe, but recipes of other folders may still compare with it.
+/// override of K, W_A or f0 that contradicts the materials is never copied, neither from it nor
+/// from `like`. The recipe.toml of a reconstruction is renamed to recipe-set-aside.toml, because
+/// the points are no longer computed from it, while other recipes may still refer to it.
 ///
-/// @throws InputError for a mistake in the file, and for missing information with the name of the
-///   option that states it.
+/// @throws InputError for a mistake in the file, and for missing information, with the option that
+///   states it
 ImportResult import_points(const ImportRequest& request);
 
 }  // namespace recoil

@@ -15,7 +15,7 @@ struct FigureAxis {
   std::string name;                                 ///< "x" or "y"
   Quantity quantity = Quantity::incident_velocity;  ///< of its coordinate
   double factor = 1.0;                              ///< of the coordinate, to SI
-  bool stated = false;                              ///< by --axis; else its ends are not known
+  bool stated = false;                              ///< by --axis; otherwise its ends are unknown
   bool logarithmic = false;
   double lower = 0.0;
   double upper = 0.0;
@@ -100,7 +100,7 @@ void read_reading_error(const std::string& word, FigureAxes& axes) {
   }
 }
 
-/// --map of a figure: "incident_velocity=x:cm/s".
+/// Reads --map of a figure: "incident_velocity=x:cm/s".
 void read_coordinates(const std::vector<std::string>& map, FigureAxes& axes) {
   for (const std::string& entry : split_lists(map)) {
     const auto pair = split_pair(entry);
@@ -129,7 +129,7 @@ void read_coordinates(const std::vector<std::string>& map, FigureAxes& axes) {
   }
 }
 
-/// x and y, incident velocity and restitution unless --map says otherwise.
+/// The axes x and y; incident velocity and restitution, unless --map states other quantities.
 FigureAxes axes_of(const ImportRequest& request) {
   FigureAxes axes;
   axes[0].name = "x";
@@ -175,7 +175,7 @@ Layout layout_of(const std::vector<CsvRow>& rows, const ImportRequest& request) 
   return layout;
 }
 
-/// The points of a series that are ends of error bars: --error-series SERIES=UPPER,LOWER.
+/// Series whose points are ends of error bars: --error-series SERIES=UPPER,LOWER.
 struct ErrorSeries {
   std::string of;
   std::vector<std::string> ends;
@@ -203,9 +203,9 @@ std::vector<ErrorSeries> error_series_of(const ImportRequest& request, const Lay
   return all;
 }
 
-/// Gives the points of a series the lengths of their error bars as standard deviations of the
-/// rebound, half the bar where both ends are given, and removes the ends from the points. Ends
-/// belong to points in the order of the incident velocity.
+/// Gives the points of a series standard deviations of the rebound: the distance from the point to
+/// the end of its error bar, or the mean of two such distances. Removes the ends from the points.
+/// Points and ends are matched in the order of incident velocity.
 void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
                      std::vector<ImportedPoint>& points) {
   const auto sorted = [&](const std::string& series) {
@@ -242,7 +242,7 @@ void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
   });
 }
 
-/// Reads one coordinate of a point; errors of readings are in the unit of the quantity.
+/// Reads one coordinate of a point and its reading error, in the SI unit of the quantity.
 void read_coordinate(const CsvField& cell, const FigureAxis& axis, const ImportRequest& request,
                      ImportedPoint& point, std::optional<double>& error) {
   const std::string file = request.file.string();
@@ -277,7 +277,7 @@ ImportedPoint point_of(const CsvField& x, const CsvField& y, const FigureAxes& a
     point.value[Quantity::events] = 1.0;
     point.value[Quantity::captured] = 1.0;
   } else if (rebound_error) {
-    // The error of V reaches e by way of velocity_sd.
+    // The contribution of the error of V to e follows from velocity_sd.
     const bool is_velocity = point.value[Quantity::rebound_velocity].has_value();
     point.value[Quantity::restitution_sd] =
         is_velocity ? *rebound_error / velocity : *rebound_error;

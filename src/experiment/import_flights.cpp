@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/statistics.hpp"
 #include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double thinnest_air = 1e-3;  // [Pa]
 
-/// The flights of the spheres of one import, and the effect of the air on e.
+/// Computes the flights of the spheres of one import, and records the effect of air on e.
 class Flights {
  public:
   Flights(const ImportRequest& request, const SphereInAir& sphere)
@@ -23,8 +24,8 @@ class Flights {
 
   double gravity() const { return gravity_; }
 
-  /// The flights of a sphere of `series` in air; nullopt in vacuum, and where size, density or air
-  /// are unknown or impossible (the dataset is refused then).
+  /// The flights of a sphere of `series` in air. nullopt in vacuum, and if size, density or air are
+  /// unknown or impossible (the dataset is then refused later).
   std::optional<AirFlight> in_air(const std::string& series,
                                   const std::optional<double>& diameter_in_file) const {
     const auto diameter = known_diameter(request_, series, diameter_in_file);
@@ -36,7 +37,7 @@ class Flights {
     return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
   }
 
-  /// Notes the effect of the air on one point. @param in_vacuum e as it would be in vacuum
+  /// Records the effect of air on one point. @param in_vacuum e if air drag is neglected
   void note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,
                  const AirFlight& air, double velocity, double e, double in_vacuum) {
     constexpr double largest = limits::restitution.upper;
@@ -81,7 +82,7 @@ class Flights {
   AirShare share_;
 };
 
-/// One drop, or all drops of one sphere from the same height.
+/// One drop, or all drops of one sphere from one height.
 struct Drops {
   std::string series;
   std::optional<double> diameter;  ///< [m], as the file states it
@@ -90,7 +91,7 @@ struct Drops {
   double height_sd = 0.0;          ///< [m]
   double rebound_sd = 0.0;         ///< of one rebound height [m]
   std::vector<double> e;           ///< of the rebounds
-  std::vector<double> in_vacuum;   ///< e as it would be in vacuum
+  std::vector<double> in_vacuum;   ///< e if air drag is neglected
   double captured = 0.0;           ///< number of captures
   int line = 0;
 };
@@ -126,7 +127,7 @@ Drops read_drop(const ImportTable& table, std::size_t r, const ImportRequest& re
   return drop;
 }
 
-/// Joins the drops of one sphere from the same height, in the order of the file.
+/// Joins the drops of one sphere from one height, in the order of the file.
 std::vector<Drops> joined(const std::vector<Drops>& drops) {
   std::vector<Drops> groups;
   std::map<std::tuple<std::string, double, std::optional<double>>, std::size_t> index;
@@ -146,11 +147,10 @@ std::vector<Drops> joined(const std::vector<Drops>& drops) {
   return groups;
 }
 
-/// The mean of the drops. Their error is that of the rebound heights, as stated or as the
-/// repetitions show it, whichever is larger, and that of the drop height, which they share.
-/// @param shared other points share the drop height: its error is one of V of their setting, and
-/// not
-///   in that of e
+/// The mean of the drops. Its error has two parts: that of the rebound heights (as stated or from
+/// the repetitions, whichever is larger), and that of the drop height, which the drops share.
+/// @param shared other points have the same drop height: its error is then an error of V of the
+///   setting, and no part of the error of e
 ImportedPoint mean_of(const Drops& drops, bool shared) {
   ImportedPoint point;
   point.series = drops.series;
@@ -163,26 +163,21 @@ ImportedPoint mean_of(const Drops& drops, bool shared) {
   }
   if (drops.e.empty()) return point;
   const double n = static_cast<double>(drops.e.size());
-  double mean = 0.0;
-  for (const double e : drops.e) mean += e / n;
-  double in_vacuum = 0.0;
-  for (const double e : drops.in_vacuum) in_vacuum += e / n;
-  double squares = 0.0;
-  for (const double e : drops.e) squares += (e - mean) * (e - mean);
-  double own =
-      drops.rebound_sd / (2.0 * drops.height * in_vacuum) * (mean / in_vacuum) / std::sqrt(n);
-  if (drops.e.size() > 1) own = std::max(own, std::sqrt(squares / (n - 1.0) / n));
-  const double of_height = shared ? 0.0 : 0.5 * mean * drops.height_sd / drops.height;
+  const double e = mean(drops.e);
+  const double in_vacuum = mean(drops.in_vacuum);
+  const double stated = drops.rebound_sd / (2.0 * drops.height * in_vacuum) * (e / in_vacuum);
+  const double own = std::max(stated, standard_deviation(drops.e)) / std::sqrt(n);
+  const double of_height = shared ? 0.0 : 0.5 * e * drops.height_sd / drops.height;
   const double sd = std::hypot(own, of_height);
-  point.value[Quantity::restitution] = mean;
+  point.value[Quantity::restitution] = e;
   if (sd > 0.0) point.value[Quantity::restitution_sd] = sd;
   return point;
 }
 
-/// A flight between two bounces.
+/// The flight between two bounces.
 struct Flight {
   double duration = 0.0;  ///< [s]
-  double bounce = 0.0;    ///< number of the bounce with which it begins
+  double bounce = 0.0;    ///< number of the bounce at its beginning
   std::size_t row = 0;
 };
 
@@ -192,17 +187,16 @@ struct Launch {
   std::optional<double> release;  ///< height [m]
   std::optional<double> diameter;
   std::vector<Flight> flights;  ///< by number of the bounce
-  double next = 1.0;            ///< the number of the next bounce, where the file has none
+  double next = 1.0;            ///< number of the next bounce, if the file does not count them
 };
 
-/// The time of a bounce, and its number where bounces are counted.
+/// The time of a bounce, and its number if the file counts them.
 struct Bounce {
   double time = 0.0;  ///< [s]
   std::optional<double> number;
 };
 
-/// Sorts the flights by the number of their bounce. @throws InputError for a number that is there
-/// twice.
+/// Sorts the flights by the number of their bounce. @throws InputError if a number appears twice
 void sort_flights(const ImportTable& table, Launch& launch) {
   std::vector<Flight>& flights = launch.flights;
   std::ranges::stable_sort(flights,
@@ -267,17 +261,17 @@ std::vector<Launch> read_launches(const ImportTable& table) {
   return launches;
 }
 
-/// The bounce after the release, as the first two flights show it.
+/// The bounce after the release, computed from the first two flights.
 struct FirstBounce {
-  ReleaseCheck check;     ///< of the height, if this bounce was like the next one
+  ReleaseCheck check;     ///< of the release height
   double velocity = 0.0;  ///< at the end of the fall [m/s]
-  int missed = 0;  ///< bounces between the release and the first flight, which are not listed
+  int missed = 0;         ///< bounces before the first flight that the file does not list
 };
 
-/// nullopt without a release height, or without two flights that follow each other from the first
-/// bounce on. The first flight rises with e^k sqrt(2 g h) after k bounces, so that k = ln(first) /
-/// ln(second) with the two e of `ReleaseCheck`; one that is a whole number from 2 on says that k -
-/// 1 bounces are not listed.
+/// nullopt without a release height, or without two successive flights from the first bounce on.
+/// After k bounces a flight begins with e^k sqrt(2 g h), so that k = ln(first) / ln(second) with
+/// the two e of `ReleaseCheck`. If k is near a whole number from 2 on, k - 1 bounces are not
+/// listed.
 std::optional<FirstBounce> first_bounce(const Launch& launch, const Flights& flights) {
   const double g = flights.gravity();
   if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) return std::nullopt;
@@ -323,7 +317,7 @@ std::vector<ReleaseCheck> mean_checks(
   return means;
 }
 
-/// The bounce after the release: V is the end of the fall.
+/// The point of the bounce after the release, with V at the end of the fall.
 ImportedPoint point_after_release(const Launch& launch, const FirstBounce& bounce,
                                   const ImportTable& table, const StatedError& time,
                                   const StatedError& drop) {
@@ -343,8 +337,8 @@ ImportedPoint point_after_release(const Launch& launch, const FirstBounce& bounc
   return point;
 }
 
-/// The places where an interval may be missing: e is there the square of the median e of the
-/// launch, and every other e of it is near one or the other.
+/// The places where an interval may be missing: there e is near the square of the median e of the
+/// launch, and every other e is near the median or its square.
 std::vector<std::string> suspected_gaps(const Launch& launch,
                                         const std::vector<ImportedPoint>& points) {
   std::vector<double> logs;
@@ -367,7 +361,7 @@ std::vector<std::string> suspected_gaps(const Launch& launch,
   return places;
 }
 
-/// The bounce between two successive flights.
+/// The point of the bounce between two successive flights.
 ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch& launch,
                              const ImportTable& table, const StatedError& time, Flights& flights) {
   const double g = flights.gravity();
@@ -434,7 +428,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     stated = stated || drops.back().height_sd > 0.0;
   }
   if (request.average) drops = joined(drops);
-  // Where the table has captures, rows without one have counted none.
+  // If any row is a capture, the rows without one state that none occurred.
   const bool counted = std::ranges::any_of(drops, [](const Drops& d) { return d.captured > 0.0; });
   std::map<std::pair<std::string, double>, int> groups_of_height;
   for (const Drops& d : drops) ++groups_of_height[{d.series, d.height}];
@@ -449,7 +443,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
       point.value[Quantity::events] = static_cast<double>(d.e.size()) + d.captured;
     }
     if (counted) point.value[Quantity::captured] = d.captured;
-    // Drops from one height share the error with which it was set.
+    // Drops from one height share its error.
     if (shared) {
       point.setting = fmt::format("{} from {:.6g} mm", d.series, d.height / units::mm);
     }
@@ -490,7 +484,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
       missed.names.push_back(fmt::format("{} ({})", launch.name, first->missed));
     } else if (first) {
       by_height[first->check.height].push_back(first->check);
-      // Without an error of the height it would count as exact beside points that have errors.
+      // Without an error of the height this point would be exact beside points with errors.
       const bool usable = drop.stated() || !time.stated();
       unused = unused || !usable;
       if (usable && first->check.first <= limits::restitution.upper) {

@@ -11,7 +11,7 @@
 namespace recoil {
 namespace {
 
-// How the titles and sources of the shipped reconstructions say what they are.
+// Phrases in the titles and sources of the shipped reconstructions that state what they are.
 constexpr const char* title_claim = ": a reconstruction";
 constexpr const char* source_claim = "; its points were not available";
 constexpr const char* recipe_claim = "the recipe's truth";
@@ -30,7 +30,8 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
   return json;
 }
 
-/// "material=steel,density=7900,...", a JSON file, or a name of the table, "steel,density=7900".
+/// A material from "material=steel,density=7900,...", from a JSON file, or from a name of the
+/// table, "steel,density=7900".
 Json material(const std::string& words, const std::string& option) {
   std::error_code failed;
   if (std::filesystem::exists(words, failed) || words.ends_with(".json")) {
@@ -74,13 +75,13 @@ Provenance provenance_for(const ImportRequest& request,
                    "give --provenance measured, or digitised if they were read off a figure");
 }
 
-/// "5mm", or a number in SI units.
+/// The SI value of "5mm", or of a number in SI units.
 double value_or_number(const std::string& word, Dimension dimension, const std::string& option) {
   const auto number = parse_number(word);
   return number ? *number : value_with_unit(word, dimension, option);
 }
 
-/// Writes the stated conditions; flights without any are through standard air.
+/// Writes the stated conditions. Flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
       request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
@@ -108,8 +109,7 @@ void put_conditions(const ImportRequest& request, Json& system) {
 
 /// The name of the folder as a Frictionless name.
 std::string name_for(const std::filesystem::path& folder) {
-  const std::filesystem::path plain = std::filesystem::absolute(folder).lexically_normal();
-  std::string name = (plain.has_filename() ? plain : plain.parent_path()).filename().string();
+  std::string name = name_of_folder(std::filesystem::absolute(folder));
   for (char& c : name) {
     const bool fine =
         std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '-';
@@ -119,7 +119,7 @@ std::string name_for(const std::filesystem::path& folder) {
   return name.empty() ? "dataset" : name;
 }
 
-/// "without air", or how the air was taken out.
+/// How the effect of air was corrected, as a phrase.
 std::string air_words(const Air& air) {
   if (!air_acts(air)) return "without air";
   return fmt::format(
@@ -187,7 +187,7 @@ struct Output {
   double factor = 1.0;  ///< to SI
 };
 
-/// The column of a quantity; diameters are in mm where all are a millimetre or more, else in um.
+/// The column of a quantity. @param millimetres diameters are in mm, otherwise in um
 Output output_of(Quantity quantity, bool millimetres) {
   for (const Condition condition : values_of<Condition>()) {
     if (quantity_of(condition) != quantity) continue;
@@ -271,7 +271,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   block["provenance"] = to_string(provenance_for(request, existing));
   Json stated = existing ? existing->json["recoil"] : Json::object();
   if (!request.like.empty()) stated = stated_system(request.like);
-  stated.erase("mixed_sizes");  // of the points that were there
+  stated.erase("mixed_sizes");  // it belongs to the replaced points
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
   if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
   for (const char* body : {"particle", "surface"}) {
@@ -356,7 +356,7 @@ std::string imported_package(const ImportRequest& request, const Json& system,
     package["resources"] = Json::array({resource});
   }
   package["recoil"] = system;
-  return package_text(package);
+  return json_text(package);
 }
 
 }  // namespace recoil

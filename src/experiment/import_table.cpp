@@ -16,7 +16,7 @@
 namespace recoil {
 namespace {
 
-/// The number at the start of a word and the rest of it.
+/// The number at the beginning of a word and the rest of the word.
 std::optional<std::pair<double, std::string>> number_and_rest(const std::string& word) {
   const std::string_view text = trimmed(word);
   for (std::size_t length = text.size(); length > 0; --length) {
@@ -41,7 +41,7 @@ std::optional<double> stated_diameter(const ImportRequest& request, const std::s
   return for_all;
 }
 
-/// The diameter in the name of a series: "2.58 um", "d = 4.9um on Mo".
+/// The diameter [m] in the name of a series: "2.58 um", "d = 4.9um on Mo".
 std::optional<double> diameter_in_name(const std::string& series) {
   static const std::regex pattern(
       R"re((^|[^0-9.])([0-9]+\.?[0-9]*)\s*(nm|um|µm|μm|mm)($|[^a-zA-Z]))re");
@@ -60,14 +60,14 @@ std::string unit_in_brackets(const std::string& name) {
   return name.substr(open + 1, close - open - 1);
 }
 
-/// Does a cell say that its value is not known?
+/// True if the text of a cell means that its value is not known.
 bool is_unknown(const std::string& text) {
   static const std::set<std::string> words = {"",    "-",   "–",   "NA",   "N/A",  "n/a", "#N/A",
                                               "nan", "NaN", "NAN", "null", "NULL", "None"};
   return words.contains(text);
 }
 
-/// "0.85 ± 0.02" or "0.85 +- 0.02" in two; the second part is empty where there is no error.
+/// Splits "0.85 ± 0.02" or "0.85 +- 0.02" into value and error, which is empty if there is none.
 std::pair<std::string, std::string> value_and_error(const std::string& text) {
   for (const std::string_view mark : {"±", "+-", "+/-"}) {
     const std::size_t at = text.find(mark);
@@ -78,12 +78,12 @@ std::pair<std::string, std::string> value_and_error(const std::string& text) {
   return {text, ""};
 }
 
-/// The quantity that holds the standard deviation of another one.
+/// The name of the quantity that is the standard deviation of `quantity`.
 std::string error_name(const std::string& quantity) {
   return quantity == "incident_velocity" ? "velocity_sd" : quantity + "_sd";
 }
 
-/// The whole file in UTF-8.
+/// The text of the file in UTF-8.
 std::string utf8_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
   std::string text = table_text(request, notes);
   try {
@@ -106,7 +106,7 @@ std::string utf8_text(const ImportRequest& request, std::vector<ImportNote>& not
   }
 }
 
-/// A line of a text, without what ends it.
+/// A line of a text without its end.
 struct Line {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -127,7 +127,7 @@ std::vector<Line> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The delimiter that a first line "sep=;" states; the line is blanked.
+/// The delimiter in a first line "sep=;", which is then blanked.
 std::optional<char> take_separator(std::string& text, std::vector<Line>& lines) {
   if (lines.empty()) return std::nullopt;
   const std::string_view first = lines.front().of(text);
@@ -139,7 +139,7 @@ std::optional<char> take_separator(std::string& text, std::vector<Line>& lines) 
   return delimiter;
 }
 
-/// The cells of one line; none where a quotation mark is in the wrong place.
+/// The cells of one line; none if a quotation mark is misplaced.
 CsvRow cells_of(std::string_view line, char delimiter) {
   CsvRow cells;
   try {
@@ -162,8 +162,8 @@ bool has_number(const CsvRow& row, const NumberFormat& format) {
       row, [&](const CsvField& cell) { return parse_number(cell.text, format).has_value(); });
 }
 
-/// The delimiter that gives the lines the same number of cells, a title above the header apart;
-/// where none does, the most frequent of the first line.
+/// The delimiter that gives all lines the same number of cells, except for a title above the
+/// header. If there is none, the most frequent delimiter of the first line.
 char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
                       const NumberFormat& format) {
   constexpr std::size_t enough = 200;  // lines
@@ -175,7 +175,7 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
     for (std::size_t i = 0; even && i < std::min(enough, lines.size()); ++i) {
       const std::string_view line = lines[i].of(text);
       if (line.starts_with('#')) continue;
-      // A line that ends with a tab has an empty cell at its end.
+      // Not Line::of, which would trim a tab and with it an empty cell at the end of the line.
       const CsvRow cells = cells_of(
           std::string_view(text).substr(lines[i].begin, lines[i].end - lines[i].begin), delimiter);
       if (width == 0 && cells.size() == 1) {
@@ -194,8 +194,8 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
   return first == lines.end() ? ',' : delimiter_of(first->of(text));
 }
 
-/// Blanks the lines that begin with '#', unless one heads the columns. @throws InputError for one
-/// below the header that could be a row.
+/// Blanks the lines that begin with '#', except for one that is the header.
+/// @throws InputError for such a line below the header that could be a row
 void blank_comments(std::string& text, const std::vector<Line>& lines, char delimiter,
                     const ImportRequest& request, std::vector<ImportNote>& notes) {
   const auto is_comment = [&](const Line& line) { return line.of(text).starts_with('#'); };
@@ -443,7 +443,7 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQ
   }
 }
 
-/// Takes the header off the rows, and a title of one cell above it.
+/// Removes the header from the rows, and titles of one cell above it.
 void ImportTable::read_header() {
   const auto filled = [](const CsvRow& row) {
     return std::ranges::count_if(row, [](const CsvField& c) { return !c.text.empty(); });
@@ -473,7 +473,7 @@ void ImportTable::read_header() {
   for (std::size_t i = 0; i < header_.size(); ++i) header_[i].text = std::to_string(i + 1);
 }
 
-/// A column with the name of a quantity stands for it.
+/// Assigns columns that have the name of a quantity.
 void ImportTable::find_columns_by_name() {
   for (const ImportQuantity& quantity : known_) {
     const auto cell = std::ranges::find_if(header_, [&](const CsvField& c) {
@@ -485,7 +485,7 @@ void ImportTable::find_columns_by_name() {
   }
 }
 
-/// Replicates of one quantity go with those of the others.
+/// Checks that all quantities with several columns have the same number of columns.
 void ImportTable::settle_replicates() {
   for (const ImportQuantity& quantity : known_) {
     const auto found = columns_.find(quantity.name);
@@ -513,7 +513,7 @@ void ImportTable::read_map(const std::string& entry) {
   const auto quantity =
       std::ranges::find_if(known_, [&](const ImportQuantity& q) { return q.name == pair->first; });
   if (quantity == known_.end()) {
-    // "velocity" is near to velocity_sd, but the needed quantity is meant: incident_velocity.
+    // "velocity" is nearest to velocity_sd but means the needed quantity, incident_velocity.
     const auto meant = std::ranges::find_if(known_, [&](const ImportQuantity& q) {
       return q.needed && q.name.ends_with("_" + pair->first);
     });
@@ -643,8 +643,6 @@ bool ImportTable::is_named(const std::string& quantity) const {
          header_[found->second.at.front()].text.starts_with(quantity);
 }
 
-void ImportTable::leave_out(std::size_t row) { left_out_.insert(row); }
-
 std::vector<ImportNote> ImportTable::notes() const {
   std::vector<ImportNote> notes = notes_;
   if (left_out_.empty()) return notes;
@@ -682,7 +680,7 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
   return scale(number(*cell, text, quantity));
 }
 
-/// The error of another quantity that stands in its cell: 0.02 in "0.85 ± 0.02".
+/// The standard deviation in the cell of its quantity: 0.02 in "0.85 ± 0.02".
 std::optional<double> ImportTable::error_beside(std::size_t row,
                                                 const std::string& quantity) const {
   for (const auto& [other, source] : columns_) {

@@ -12,11 +12,11 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_samples = 4;  // of a flight
+constexpr std::size_t fewest_samples = 4;  // in a flight
 
 struct Sample {
   double time = 0.0;    ///< [s]
-  double height = 0.0;  ///< upward [m], or pixels
+  double height = 0.0;  ///< upward [m] or [pixels]
   int line = 0;
 };
 
@@ -27,7 +27,7 @@ struct Track {
   std::vector<Sample> samples;
 };
 
-/// The differences of the given order between successive heights.
+/// The finite differences of this order of the heights.
 std::vector<double> differences(const std::vector<Sample>& samples, int order) {
   std::vector<double> values;
   for (const Sample& sample : samples) values.push_back(sample.height);
@@ -38,17 +38,17 @@ std::vector<double> differences(const std::vector<Sample>& samples, int order) {
   return values;
 }
 
-/// One standard deviation of a height: third differences of a parabola vanish, and those of
-/// independent errors have 1 + 9 + 9 + 1 = 20 times their variance. For normal errors the median of
-/// |x| is 0.6745 standard deviations.
+/// The standard deviation of a height from third differences: they vanish for a parabola and have
+/// 1 + 9 + 9 + 1 = 20 times the variance of independent errors. For normal errors the median of |x|
+/// is 0.6745 standard deviations.
 double noise_of(const std::vector<Sample>& samples) {
   std::vector<double> third = differences(samples, 3);
   for (double& value : third) value = std::abs(value);
   return median(third) / (0.6745 * std::sqrt(20.0));
 }
 
-/// The minima from which the height rises on both sides by six standard deviations of the noise,
-/// and by a hundredth of the whole range, before it falls below them.
+/// The minima from which the height rises on both sides, before it falls below the minimum, by more
+/// than six standard deviations of the noise and more than 1 % of the whole range.
 std::vector<std::size_t> impacts_of(const std::vector<Sample>& samples) {
   const auto [low, high] = std::ranges::minmax_element(
       samples, [](const Sample& a, const Sample& b) { return a.height < b.height; });
@@ -70,18 +70,18 @@ std::vector<std::size_t> impacts_of(const std::vector<Sample>& samples) {
   return impacts;
 }
 
-/// The samples of a flight, [begin, end).
+/// A flight: the samples [begin, end).
 struct Arc {
   std::size_t begin = 0;
   std::size_t end = 0;
   double middle = 0.0;  ///< t_k [s]
-  bool good = true;     ///< enough samples, and it falls like the others
+  bool good = true;     ///< it has enough samples and falls like the others
 
   std::size_t size() const { return end > begin ? end - begin : 0; }
 };
 
-/// The flights before, between and after the impacts. The hand that holds the ball before its
-/// release is cut off the first one, and what follows its first return off the last one.
+/// The flights before, between and after the impacts. The first one begins after the release of the
+/// ball, and the last one ends before the height rises again.
 std::vector<Arc> arcs_of(const std::vector<Sample>& samples,
                          const std::vector<std::size_t>& impacts) {
   std::vector<Arc> arcs;
@@ -115,9 +115,9 @@ std::vector<Arc> arcs_of(const std::vector<Sample>& samples,
 /// The parabolas of the good flights: coefficients c_k, b_k, k = 0, 1, ..., then a.
 struct Parabolas {
   Eigen::VectorXd values;
-  Eigen::MatrixXd covariance;         ///< over the variance of a height
+  Eigen::MatrixXd covariance;         ///< divided by the variance of a height
   double variance = 0.0;              ///< of a height, from the residuals
-  long freedom = 0;                   ///< degrees of it
+  long freedom = 0;                   ///< degrees of freedom
   std::vector<std::ptrdiff_t> first;  ///< index of c_k of every arc; -1 for one that is not good
 };
 
@@ -155,8 +155,8 @@ Parabolas fit_parabolas(const std::vector<Sample>& samples, const std::vector<Ar
   return fit;
 }
 
-/// Rejects the flights that do not fall like the others: a hand, a rolling ball, a lost marker. One
-/// is rejected whose own a differs from the median by 30 % and by four of its standard deviations.
+/// Rejects flights that do not fall like the others (a hand, a rolling ball, a lost marker): those
+/// whose own a differs from the median by more than 30 % and more than four standard deviations.
 void reject_others(const std::vector<Sample>& samples, std::vector<Arc>& arcs) {
   const double noise = noise_of(samples);
   std::vector<double> falls(arcs.size(), 0.0);
@@ -176,11 +176,11 @@ void reject_others(const std::vector<Sample>& samples, std::vector<Arc>& arcs) {
   }
 }
 
-/// e and V where two flights meet, from c and b of both (and their t_k) and a.
+/// The intersection of the parabolas of two flights.
 struct Meeting {
   double e = 0.0;
   double velocity = 0.0;
-  double after = 0.0;  ///< the reference time until they meet [s]
+  double after = 0.0;  ///< time of the intersection less the time of the minimum [s]
 };
 
 /// @param known c_1, b_1, c_2, b_2, a
@@ -243,7 +243,7 @@ class TrackReader {
   std::vector<ImportNote>& notes() { return out_.notes; }
 
  private:
-  /// @returns false where the flights on both sides do not meet near the minimum.
+  /// @returns false if the parabolas do not intersect near the minimum
   bool add_point(const Track& track, std::size_t at, const std::vector<Arc>& arcs, std::size_t k,
                  const Parabolas& fit) {
     const std::vector<Sample>& samples = track.samples;
@@ -260,7 +260,7 @@ class TrackReader {
                                                          places[static_cast<std::size_t>(j)]);
       }
     }
-    // In m/s: by the scale of the heights, or by the fall.
+    // In m/s, also if the heights have no scale: a is then g.
     const auto answer = [&](const Eigen::Matrix<double, 5, 1>& values) {
       Meeting meeting = meeting_of(values, since[0], since[1]);
       if (!scaled_) meeting.velocity *= gravity_ / values(4);
@@ -330,7 +330,7 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
     samples.push_back({seconds, *height * (pixels ? pixel : 1.0), table.line(r)});
   }
   if (!pixels) return tracks;
-  // Rows of a picture count downward in most programs: what falls tells which way is up.
+  // Most programs count rows of a picture downward. The sign of the acceleration tells.
   for (Track& track : tracks) {
     if (!(median(differences(track.samples, 2)) > 0.0)) continue;
     for (Sample& sample : track.samples) sample.height = -sample.height;

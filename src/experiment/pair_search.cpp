@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t none = SIZE_MAX;
 
-/// Greedy choice, then exchanges along paths of three links: a free `from`, its `to` that another
-/// `from` holds, and a free `to` for that one.
+/// Matches greedily, and then improves the matching along augmenting paths of three links: from a
+/// free `from` to a `to` that another `from` uses, and from that one to a free `to`.
 class Chooser {
  public:
   Chooser(const std::vector<Link>& links, std::size_t passages)
@@ -89,7 +89,7 @@ class Chooser {
     for (std::size_t a = start_[passage]; a < start_[passage + 1]; ++a) {
       const Link& wanted = links_[list_[a]];
       const std::size_t held = by_to_[wanted.to];
-      if (held == none) continue;  // the greedy choice would have taken it
+      if (held == none) continue;  // the greedy matching would have taken this link
       const std::size_t holder = links_[held].from;
       for (std::size_t b = start_[holder]; b < start_[holder + 1]; ++b) {
         const Link& other = links_[list_[b]];
@@ -125,13 +125,13 @@ namespace {
 
 constexpr std::size_t most_candidates = 200;  ///< per passage
 constexpr std::size_t fewest_to_refine = 12;  ///< pairs; with fewer the estimate is kept
-/// Of one impact [1]. Errors bring it above 1; a limit near 1 would select by them and lower the
-/// mean.
+/// Of one impact [1]. Errors can bring it above 1; a limit near 1 would select by the errors and
+/// bias the mean.
 constexpr double largest_restitution = 1.5;
 constexpr double lowest_sd = 2e-3;          ///< of either deviation [1]
 constexpr double highest_height_sd = 0.15;  ///< [1]
 
-/// The centre of the interval of width `width` that holds most of the values.
+/// The centre of the interval of this width that contains the most values.
 double densest(std::vector<double> values, double width) {
   std::ranges::sort(values);
   std::size_t most = 0;
@@ -268,7 +268,7 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Pas
     result.diameter_spread = robust_sd(sizes);
     if (!options.refine) continue;
     result.model.log_height = median(heights);
-    // the standard error of a median of normal numbers
+    // standard error of the median of normal variables
     result.log_height_sd =
         std::sqrt(M_PI / 2.0) * result.height_spread / std::sqrt(static_cast<double>(links.size()));
     result.refined = true;

@@ -10,10 +10,10 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t fewest_to_narrow = 20;
-constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; beyond, too crowded to tell
+constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; a larger search is given up
 constexpr double sqrt2 = 1.4142135623730951;
 
-/// One past the last passage of the series of `passages[i]`, asked for ascending i.
+/// The index after the last passage of the series of `passages[i]`, for ascending i.
 class SeriesEnds {
  public:
   explicit SeriesEnds(const std::vector<Passage>& passages) : passages_(passages) {}
@@ -33,7 +33,7 @@ class SeriesEnds {
 
 double squared(double x) { return x * x; }
 
-/// Cost of the deviation in size; nullopt when the sizes disagree.
+/// Cost of the deviation in size; nullopt if the sizes disagree.
 std::optional<double> size_cost(const Passage& a, const Passage& b, const PairingModel& model) {
   const double deviation =
       std::log(b.diameter / a.diameter) / model.diameter_sd.at(std::log(a.diameter));
@@ -41,14 +41,14 @@ std::optional<double> size_cost(const Passage& a, const Passage& b, const Pairin
   return squared(deviation);
 }
 
-/// Relative scatter of the velocity of a passage with `speed`: that of the measurement, and that of
-/// the height in the probe volume at which it is measured, g dh / v^2.
+/// Relative scatter of the velocity of a passage with `speed`, due to the measurement and to the
+/// scatter dh of its height in the probe volume, g dh / v^2.
 double local_scatter(double velocity_sd, double speed, double height, const PairingModel& model) {
   const double place = height * model.height_sd.at(std::log(speed));
   return std::hypot(velocity_sd, std::min(standard_gravity * place / (speed * speed), 0.2));
 }
 
-/// Returns with the time above the plane multiplied by `scale`; nullopt when that takes too long.
+/// Finds returns with the time above the plane multiplied by `scale`; nullopt if it takes too long.
 std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages,
                                             const PairingOptions& options,
                                             const PairingModel& model, double velocity_sd,
@@ -101,9 +101,9 @@ double count_below(const std::vector<double>& sorted, double cost) {
   return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), cost) - sorted.begin());
 }
 
-/// Runs `search(scale)` at the right time and at two wrong ones, which find links by chance only.
-/// It keeps the links up to the cost with the largest gain: a true follower counts 1, one by chance
-/// -1.
+/// Runs `search(scale)` for the right time and for two wrong times, which give links by chance
+/// only. Keeps the links up to the cost with the largest gain, where a true link counts 1 and one
+/// by chance -1.
 struct Judged {
   Followers followers;
   double gain = 0.0;
@@ -145,7 +145,7 @@ double scatter_of(const std::vector<Link>& links, double otherwise) {
     lateness.push_back(link.first);
     ratios.push_back(link.second);
   }
-  // The ratio of two speeds scatters by sqrt(2) of one, their mean by 1 / sqrt(2).
+  // The scatter of the ratio of two speeds is sqrt(2) times that of one, of their mean 1 / sqrt(2).
   const double sd = std::max(robust_sd(ratios) / sqrt2, robust_sd(lateness) * sqrt2);
   return std::clamp(sd, 1e-3, otherwise);
 }
@@ -162,7 +162,7 @@ double velocity_scatter(const Followers& returns, const PairingOptions& options)
 
 Followers find_returns(const std::vector<Passage>& passages, const PairingOptions& options,
                        const PairingModel& model) {
-  // The scatter of the velocities is the one with the largest gain, on a part of the stream.
+  // The scatter of the velocities is that with the largest gain for a part of the stream.
   constexpr std::size_t enough = 20000;
   const std::size_t stride = passages.size() / enough + 1;
   double sd = widest_scatter(options);

@@ -16,8 +16,8 @@ Matching match_pairs(const std::vector<Passage>& passages, const std::vector<Lin
   return match(agreeing(candidates, passages, model), passages.size(), worst_link);
 }
 
-/// How often a passage down finds a partner by chance: every n-th one is added to the stream again,
-/// 1.7 s away, where it does not belong and competes with the true passages.
+/// Counts how often a passage down gets a partner by chance. Every n-th one is added to the stream
+/// again, shifted by 1.7 s, as a decoy that competes with the true passages.
 struct DecoyCount {
   std::size_t tried = 0;
   std::size_t paired = 0;
@@ -60,7 +60,7 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
   return count;
 }
 
-/// Numbers the passages down: 1 from the dispenser, else one more than the passage that it follows.
+/// Numbers the passages down: 1 from the dispenser, otherwise one more than the passage before.
 class Chains {
  public:
   explicit Chains(std::size_t passages) : previous_(passages, unassigned), number_(passages, 0) {}
@@ -99,8 +99,7 @@ Impact impact_of(const std::vector<Passage>& passages, const Link& pair, double 
   return impact;
 }
 
-/// The candidates, the model that they refine, and the options with the height at which they were
-/// sought.
+/// The candidates, the model refined with them, and the options with the height of the search.
 struct Search {
   PairingOptions options;
   std::vector<Link> candidates;
@@ -113,7 +112,7 @@ Search search_pairs(const std::vector<Passage>& passages, const PairingOptions& 
   const PairingModel& model = search.refined.model;
   const double reach = std::abs(model.log_height) + widest_agreement * model.height_sd.largest();
   if (search.refined.refined && reach > std::log(options.height_range)) {
-    // The height lies near an end of the range, which cuts pairs off: search again about it.
+    // The height is near an end of the range, which excludes pairs: search again around it.
     search.options.height *= std::exp(model.log_height);
     search.candidates = pair_candidates(passages, search.options);
     search.refined = refine_height(search.candidates, passages, search.options);
@@ -121,7 +120,7 @@ Search search_pairs(const std::vector<Passage>& passages, const PairingOptions& 
   return search;
 }
 
-/// The number of every passage down, and which unpaired ones came back from an unseen rebound.
+/// The number of every passage down, and which unpaired ones came back from an undetected rebound.
 struct Later {
   Chains chains;
   std::vector<bool> came_back;
@@ -147,7 +146,8 @@ Later find_later_impacts(const std::vector<Passage>& passages, const Search& sea
   result.returns = returns.links.size();
   result.expected_returns = returns.by_chance;
   result.returns_usable = returns.usable || returns.links.empty();
-  // Few returns say less than the flight times, which scatter by at least 1 / sqrt(2) of it.
+  // The scatter of flight times is at least 1 / sqrt(2) of it, and is better known than few
+  // returns.
   result.velocity_spread = velocity_scatter(returns, search.options);
   if (result.height_spread > 0.0) {
     result.velocity_spread =
@@ -155,7 +155,7 @@ Later find_later_impacts(const std::vector<Passage>& passages, const Search& sea
   }
   if (!returns.usable) return later;
   for (const Link& link : returns.links) {
-    // An orphan rebound takes the place of its own passage down, which was not seen.
+    // A rebound without its passage down stands for that passage, which was not detected.
     const std::uint32_t earlier = down_of[link.from];
     later.chains.follow(link.to, earlier != unassigned ? earlier : link.from);
     open_next[link.to] = false;
@@ -229,7 +229,7 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
   result.decoys = decoys.tried;
   if (decoys.tried > 0) {
     result.decoy_share = static_cast<double>(decoys.paired) / static_cast<double>(decoys.tried);
-    // n passages without a true partner leave n (1 - q) unpaired.
+    // Of n passages without a true partner, n (1 - q) stay unpaired.
     const double chance = result.decoy_share / std::max(1.0 - result.decoy_share, 1e-3) *
                           static_cast<double>(result.unpaired.size());
     result.expected_false =

@@ -27,7 +27,7 @@ Histogram filled(const std::vector<double>& values, std::size_t bins, HistogramR
   const auto [lowest, highest] = std::ranges::minmax_element(values);
   histogram.lower = *lowest;
   histogram.width = (*highest - *lowest) / static_cast<double>(bins);
-  if (!(histogram.width > 0.0)) {  // all alike: one bin about them
+  if (!(histogram.width > 0.0)) {  // all values are equal: one bin around them
     bins = 1;
     histogram.width = std::max(std::abs(*lowest) * 1e-3, 1e-12);
     histogram.lower -= 0.5 * histogram.width;
@@ -78,10 +78,6 @@ std::string bins_csv(const std::vector<double>& values, double unit) {
   return out;
 }
 
-std::string fate_of(const Unpaired& lone) {
-  return lone.came_back ? "lost: came back" : "no rebound seen";
-}
-
 }  // namespace
 
 std::string points_csv(const Averages& averages) {
@@ -126,7 +122,7 @@ std::string impacts_csv(const PassageTable& table, const PairingResult& pairs) {
     out += fmt::format("{},{},,{:.7f},{:.6g},{:.6g},,,{:.5g},{},{},{}\n",
                        csv_cell(table.series[down.series]), down.line, down.time, down.velocity,
                        lone.incident, down.diameter / units::um, lone.number, lone.used ? 1 : 0,
-                       fate_of(lone));
+                       lone.came_back ? "lost: came back" : "no rebound seen");
   }
   return out;
 }
@@ -173,7 +169,7 @@ std::string package_json(const Json& system, const std::string& id, Provenance p
       {"resources", resources},
       {"recoil", recoil},
   };
-  return package_text(package);
+  return json_text(package);
 }
 
 Distributions distributions(const PassageTable& table, const PairingResult& pairs) {

@@ -17,7 +17,7 @@
 
 namespace recoil {
 
-/// How the number of bins is found.
+/// The rule for the number of bins.
 enum class HistogramRule { sturges, freedman_diaconis };
 
 template <>
@@ -36,32 +36,32 @@ struct Histogram {
   double middle(std::size_t bin) const { return lower + width * (static_cast<double>(bin) + 0.5); }
 };
 
-/// Sturges' rule: 1 + log2(n) bins, rounded up (Sturges 1926, J. Am. Stat. Assoc. 21, 65-66). The
-/// rule of the paper; too coarse for more than a few hundred values or several peaks.
+/// Sturges' rule, which the paper uses: 1 + log2(n) bins, rounded up (Sturges 1926, J. Am. Stat.
+/// Assoc. 21, 65-66). It is too coarse for more than a few hundred values or several peaks.
 Histogram sturges(const std::vector<double>& values);
 
 /// The rule of Freedman & Diaconis (1981, Z. Wahrscheinlichkeitstheorie 57, 453-476): bins of width
-/// 2 (q75 - q25) n^(-1/3), at most 2000 of them; Sturges' number when the quartiles coincide.
+/// 2 (q75 - q25) n^(-1/3), at most 2000 of them; Sturges' number if the quartiles coincide.
 Histogram freedman_diaconis(const std::vector<double>& values);
 
-/// `points.csv`: series, diameter [um], incident_velocity [m/s], velocity_sd, restitution,
-/// restitution_sd, passages, captured. A cell is empty where nothing is known.
+/// The text of `points.csv`: series, diameter [um], incident_velocity [m/s], velocity_sd,
+/// restitution, restitution_sd, events, captured. Unknown values are empty cells.
 std::string points_csv(const Averages& averages);
 
-/// One row per passage down that is used or not: line numbers, velocities at plane and surface,
-/// restitution, diameter, number of the impact, what became of it.
+/// One row per passage down, used or not: line numbers, velocities at plane and surface,
+/// restitution, diameter, number of the impact, fate.
 std::string impacts_csv(const PassageTable& table, const PairingResult& pairs);
 
-/// `datapackage.json` for points_csv.
-/// @param system what stands under the key `recoil` beside the provenance
-/// @param id its name
-/// @param description what was done.
-/// @param sizes_height of the plane [m]: lists sizes.csv beside the points; 0 for no such file.
+/// The text of `datapackage.json` for points_csv.
+/// @param system the object under the key `recoil`, without the provenance
+/// @param id the dataset's name
+/// @param description of the pairing
+/// @param sizes_height height of the plane [m] for the resource sizes.csv; 0: no such file
 std::string package_json(const Json& system, const std::string& id, Provenance provenance,
                          const std::string& events_file, const std::string& description,
                          double sizes_height = 0.0);
 
-/// The distributions that the paper shows, SI units.
+/// The distributions that the paper shows, in SI units.
 struct Distributions {
   std::vector<double> raw_velocities;     ///< all passages, at the plane, towards the surface > 0
   std::vector<double> paired_velocities;  ///< of the used impacts only
@@ -70,12 +70,13 @@ struct Distributions {
 };
 Distributions distributions(const PassageTable& table, const PairingResult& pairs);
 
-/// Sturges' bins of the incoming spheres: lower and upper end [um] and count, as `recoil predict
-/// --sizes` and the reports read them.
+/// The text of sizes.csv: Sturges' bins of the incoming spheres with lower and upper end [um] and
+/// count, as `recoil predict --sizes` and the reports read them.
 std::string sizes_csv(const Distributions& distributions);
 
-/// CSV files by name: velocities-raw, velocities-paired, sizes-incoming and sizes-paired hold the
-/// bins of both rules (rule, lower, upper, middle, count, share), and sizes.csv see `sizes_csv`.
+/// CSV files by name: velocities-raw, velocities-paired, sizes-incoming and sizes-paired contain
+/// the bins of both rules (rule, lower, upper, middle, count, share); for sizes.csv see
+/// `sizes_csv`.
 std::map<std::string, std::string> histogram_files(const Distributions& distributions);
 
 }  // namespace recoil

@@ -28,7 +28,8 @@ std::string_view unquoted(std::string_view cell) {
   return cell;
 }
 
-/// The cells of one line. Instruments write plain lines: a quoted cell may not hold the delimiter.
+/// Splits one line into cells. A quoted cell must not contain the delimiter, as in all instruments'
+/// files.
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   while (cells.size() <= most_columns) {
@@ -61,7 +62,7 @@ struct FieldColumn {
   double factor = 1.0;  ///< to SI
 };
 
-/// The statements of the data package about one file.
+/// What the data package states about one file.
 struct Stated {
   std::map<std::string, std::string> units;  ///< column -> unit
   std::optional<Provenance> provenance;
@@ -93,8 +94,8 @@ void require_fields(const std::map<std::string, std::string>& given, const std::
   }
 }
 
-/// Ties the fields to the columns of the header. Each is the column of its name, or that of
-/// --column; its unit is that of --unit, or else of the data package.
+/// Assigns columns of the header to fields, by --column or by the field's name. The unit is that of
+/// --unit, or else that of the data package.
 std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
                                       const std::string& package_text, const PassageFormat& format,
                                       PassageTable& table) {
@@ -144,7 +145,7 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
   return columns;
 }
 
-/// Turns rows into passages and counts those that it cannot use.
+/// Converts rows to passages and counts the damaged ones.
 class PassageReader {
  public:
   PassageReader(PassageTable& table, std::vector<FieldColumn> columns, std::size_t width,
@@ -251,7 +252,7 @@ void sort_and_unite(PassageTable& table) {
   if (table.duplicated > most_examples) table.first_duplicated.resize(most_examples);
 }
 
-/// Refuses a file with mostly damaged rows: its delimiter or its units are not those assumed.
+/// Refuses a file with mostly damaged rows, whose delimiter or units are not those assumed.
 void require_usable(const PassageTable& table) {
   if (table.rows == 0) {
     throw InputError({table.file, 1, 1}, "there is a header but no row below it", "",

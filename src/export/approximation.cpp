@@ -16,7 +16,7 @@ namespace {
 
 constexpr double least_loss = 1e-6;  // bounds of kappa in the search for the best value
 constexpr double most_loss = 1e3;
-constexpr double found_to = 1e-4;  // relative, of the value
+constexpr double found_to = 1e-4;  // relative error of the value
 
 std::vector<double> answers(const Approximation& approximation, const ExportedImpact& impact) {
   if (approximation.model == StockModel::constant_restitution) {
@@ -149,7 +149,7 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
     case ExportTarget::yade:
       if (stock) return ExportForm::approximation;
       if (impact.force_is_all) return ExportForm::force;
-      // without adhesion there is nothing to begin with
+      // the refitted force starts from the adhesion of the fit
       return impact.force.adhesion_force > 0.0 ? ExportForm::refitted : ExportForm::approximation;
     case ExportTarget::liggghts:
       return ExportForm::approximation;

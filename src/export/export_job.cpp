@@ -1,5 +1,7 @@
 #include "export/export_job.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <cmath>
 
@@ -25,6 +27,8 @@ double longest_run(const ExportedImpact& impact) {
 double typical_velocity(const ExportedImpact& impact) {
   return rounded(std::sqrt(impact.request.slowest * impact.request.fastest), 2);
 }
+
+std::string shortest(double value) { return fmt::format("{}", value); }
 
 std::string filled(std::string_view text,
                    std::initializer_list<std::pair<std::string_view, std::string>> values) {

@@ -43,20 +43,11 @@ void require_answer(const ImpactResult& impact, double diameter, double velocity
                                      diameter / units::um, to_string(impact.outcome)));
 }
 
-std::vector<double> log_spaced(double first, double last, std::size_t count) {
-  std::vector<double> values;
-  for (std::size_t k = 0; k < count; ++k) {
-    values.push_back(
-        first * std::pow(last / first, static_cast<double>(k) / static_cast<double>(count - 1)));
-  }
-  return values;
-}
-
-// "No adhesion" is a lower bound in a fit, not zero: where V_a, or V*, is below this part of the
-// slowest velocity it is none. It changes e^2 by 1e-8 there.
+// In a fit "no adhesion" is a lower bound, not zero. Adhesion is omitted if V_a, or V*, is below
+// this part of the slowest velocity, which changes e^2 by 1e-8.
 constexpr double no_adhesion = 1e-6;
 
-/// Do two e(V) agree to `same_square`?
+/// True if the e^2 of two e(V) agree to `same_square`.
 bool same(std::span<const double> one, std::span<const double> other) {
   for (std::size_t k = 0; k < one.size(); ++k) {
     if (!(std::abs(one[k] * one[k] - other[k] * other[k]) <= same_square)) return false;
@@ -64,8 +55,8 @@ bool same(std::span<const double> one, std::span<const double> other) {
   return true;
 }
 
-/// The force that the chain leaves to the equation of motion, as a sphere in the middle of the
-/// range meets it.
+/// The force in the equation of motion with the changes by the chain, for a sphere with a velocity
+/// in the middle of the range.
 ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
                       const ExportRequest& request) {
   const double middle = std::sqrt(request.slowest * request.fastest);

@@ -34,7 +34,7 @@ DEFINE_DPM_BC(recoil_rebound, p, t, f, f_normal, dim)
 
 }  // namespace
 
-std::vector<ExportedFile> fluent_files(const ExportJob& job) {
+std::vector<WholeFile> fluent_files(const ExportJob& job) {
   const std::string heading = commented(job.heading, "   ");
   return {{"recoil_rebound.c",
            filled(udf_text, {{"HEADING", heading}, {"TABLE", lookup_in_c(*job.lookup)}})}};

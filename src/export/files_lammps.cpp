@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -16,8 +15,6 @@ constexpr double newton_per_meter = 1e3;  // pg / us^2; J/m2 too
 constexpr double newton = 1e9;            // pg um / us^2
 constexpr double density = 1e-3;          // kg/m3 to pg/um^3
 constexpr double dashpot = 1e6;           // N s m^(-3/2) to pg um^(-1/2) / us
-
-std::string number(double value) { return fmt::format("{}", value); }
 
 constexpr const char* lammps_frame = R"in(@HEADING@#
 # Run:  lmp -in impact.lammps -var V @V@       V: incident velocity [m/s]
@@ -105,9 +102,9 @@ fix contact all addforce 0 0 v_fz
 pair_style none
 )in";
 
-// At a wall this version takes E / (2 (1 - nu)) for E*, found by comparing e, where one of a single
-// material would have E / (2 (1 - nu^2)) and one of a rigid wall E / (1 - nu^2) (issue 4141 of
-// lammps): with nu = 0, and no friction to need it, the first two are the same.
+// At a wall this version uses E* = E / (2 (1 - nu)), which a comparison of e shows, instead of E /
+// (2 (1 - nu^2)) for a wall of the same material or E / (1 - nu^2) for a rigid wall (issue 4141 of
+// lammps). With nu = 0, which friction does not forbid here, the first two are equal.
 constexpr const char* lammps_stock =
     R"in(# Hertz with the damping -eta m a n', which is the one number chosen. E = 1.5 K with nu = 0: at a
 # wall LAMMPS takes half of E for E* then, at least up to the version this was tried with.
@@ -122,36 +119,36 @@ std::string force_text(const ExportJob& job) {
   if (job.form == ExportForm::approximation) {
     return filled(
         lammps_stock,
-        {{"E", number(1.5 * f.stiffness * pascal)},
-         {"ETA", number(job.stock->value / (f.mass() * std::sqrt(f.radius)) / (us * um))}});
+        {{"E", shortest(1.5 * f.stiffness * pascal)},
+         {"ETA", shortest(job.stock->value / (f.mass() * std::sqrt(f.radius)) / (us * um))}});
   }
   const std::string acts = f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz";
-  const std::string radius = number(f.radius * um);
-  const std::string stiffness = number(f.stiffness * pascal);
-  const std::string c_h = number(f.hertz_damping);
-  const std::string c_a = number(f.adhesion_damping);
+  const std::string radius = shortest(f.radius * um);
+  const std::string stiffness = shortest(f.stiffness * pascal);
+  const std::string c_h = shortest(f.hertz_damping);
+  const std::string c_a = shortest(f.adhesion_damping);
   if (f.adhesion == AdhesionLaw::ring) {
     return filled(lammps_ring, {{"R", radius},
                                 {"K", stiffness},
-                                {"F0", number(f.adhesion_force * newton_per_meter)},
+                                {"F0", shortest(f.adhesion_force * newton_per_meter)},
                                 {"CH", c_h},
                                 {"CA", c_a},
-                                {"DASHPOT", number(f.dashpot * dashpot)},
+                                {"DASHPOT", shortest(f.dashpot * dashpot)},
                                 {"ACTS", acts}});
   }
   if (f.adhesion == AdhesionLaw::dmt) {
     return filled(lammps_dmt, {{"R", radius},
                                {"K", stiffness},
-                               {"W", number(f.adhesion_energy * newton_per_meter)},
+                               {"W", shortest(f.adhesion_energy * newton_per_meter)},
                                {"CH", c_h},
                                {"CA", c_a},
                                {"ACTS", acts}});
   }
   const double unit = f.stiffness * std::pow(f.radius * f.jkr_length(), 1.5) / f.radius;
   return filled(lammps_jkr, {{"R", radius},
-                             {"W", number(f.adhesion_energy)},
-                             {"U", number(f.jkr_length() * um)},
-                             {"P", number(unit * newton)},
+                             {"W", shortest(f.adhesion_energy)},
+                             {"U", shortest(f.jkr_length() * um)},
+                             {"P", shortest(unit * newton)},
                              {"CH", c_h},
                              {"CA", c_a},
                              {"ACTS", acts}});
@@ -159,24 +156,24 @@ std::string force_text(const ExportJob& job) {
 
 }  // namespace
 
-std::vector<ExportedFile> lammps_files(const ExportJob& job) {
+std::vector<WholeFile> lammps_files(const ExportJob& job) {
   const ContactForce& f = job.force;
   const bool exact = job.form != ExportForm::approximation;
   const bool parts_outside = exact && f.adhesion == AdhesionLaw::jkr && f.adhesion_energy > 0.0;
   const double side = rounded(8.0 * f.radius * um, 2);
   const std::string text =
       filled(lammps_frame, {{"HEADING", commented(job.heading, "# ")},
-                            {"V", number(typical_velocity(job.impact))},
-                            {"DT", number(time_step(job.impact) * us)},
-                            {"DURATION", number(longest_run(job.impact) * us)},
+                            {"V", shortest(typical_velocity(job.impact))},
+                            {"DT", shortest(time_step(job.impact) * us)},
+                            {"DURATION", shortest(longest_run(job.impact) * us)},
                             {"NEWTON", exact ? "" : "newton off\ncomm_modify vel yes\n"},
-                            {"SIDE", number(side)},
-                            {"TOP", number(4.0 * side)},
-                            {"R", number(f.radius * um)},
-                            {"D", number(2.0 * f.radius * um)},
-                            {"RHO", number(f.density * density)},
+                            {"SIDE", shortest(side)},
+                            {"TOP", shortest(4.0 * side)},
+                            {"R", shortest(f.radius * um)},
+                            {"D", shortest(2.0 * f.radius * um)},
+                            {"RHO", shortest(f.density * density)},
                             {"FORCE", force_text(job)},
-                            {"RELEASE", parts_outside ? "v_R+3*v_u" : number(f.radius * um)}});
+                            {"RELEASE", parts_outside ? "v_R+3*v_u" : shortest(f.radius * um)}});
   return {{"impact.lammps", text}};
 }
 

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "export/export_job.hpp"
 #include "export/files.hpp"
@@ -50,27 +49,25 @@ variable shown equal ${e}
 print "restitution ${shown}"
 )in";
 
-std::string plain(double value) { return fmt::format("{}", value); }
-
 }  // namespace
 
-std::vector<ExportedFile> liggghts_files(const ExportJob& job) {
+std::vector<WholeFile> liggghts_files(const ExportJob& job) {
   const ContactForce& f = job.force;
   constexpr double poisson = 0.25;
   const double side = rounded(8.0 * f.radius, 2);
   return {{"impact.liggghts",
            filled(liggghts_text, {{"HEADING", commented(job.heading, "# ")},
-                                  {"V", plain(typical_velocity(job.impact))},
-                                  {"DT", plain(time_step(job.impact))},
-                                  {"DURATION", plain(longest_run(job.impact))},
-                                  {"SIDE", plain(side)},
-                                  {"TOP", plain(4.0 * side)},
-                                  {"SKIN", plain(rounded(0.5 * f.radius, 1))},
-                                  {"START", plain(f.radius)},
-                                  {"D", plain(2.0 * f.radius)},
-                                  {"RHO", plain(f.density)},
-                                  {"E", plain(1.5 * f.stiffness * (1.0 - poisson * poisson))},
-                                  {"RESTITUTION", plain(job.stock->value)}})}};
+                                  {"V", shortest(typical_velocity(job.impact))},
+                                  {"DT", shortest(time_step(job.impact))},
+                                  {"DURATION", shortest(longest_run(job.impact))},
+                                  {"SIDE", shortest(side)},
+                                  {"TOP", shortest(4.0 * side)},
+                                  {"SKIN", shortest(rounded(0.5 * f.radius, 1))},
+                                  {"START", shortest(f.radius)},
+                                  {"D", shortest(2.0 * f.radius)},
+                                  {"RHO", shortest(f.density)},
+                                  {"E", shortest(1.5 * f.stiffness * (1.0 - poisson * poisson))},
+                                  {"RESTITUTION", shortest(job.stock->value)}})}};
 }
 
 }  // namespace recoil

@@ -148,7 +148,7 @@ LIB_LIBS = -llagrangianIntermediate
 
 }  // namespace
 
-std::vector<ExportedFile> openfoam_files(const ExportJob& job) {
+std::vector<WholeFile> openfoam_files(const ExportJob& job) {
   const std::string heading = commented(job.heading, "// ");
   const std::filesystem::path folder = "recoilRebound";
   return {

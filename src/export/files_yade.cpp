@@ -93,42 +93,40 @@ print("restitution %.9f" % (state.vel[2] / V if state.vel[2] > 0 else 0.0))
 sys.exit(0)
 )py";
 
-std::string written(double value) { return fmt::format("{}", value); }
-
 std::string yade_body(const ExportJob& job) {
   const ContactForce& f = job.force;
   if (job.form == ExportForm::approximation) {
     constexpr double poisson = 0.25;
-    return filled(yade_stock, {{"E", written(1.5 * f.stiffness * (1.0 - poisson * poisson))},
-                               {"RHO", written(f.density)},
-                               {"RESTITUTION", written(job.stock->value)}});
+    return filled(yade_stock, {{"E", shortest(1.5 * f.stiffness * (1.0 - poisson * poisson))},
+                               {"RHO", shortest(f.density)},
+                               {"RESTITUTION", shortest(job.stock->value)}});
   }
   const bool jkr = f.adhesion == AdhesionLaw::jkr && f.adhesion_energy > 0.0;
   const bool dmt = f.adhesion == AdhesionLaw::dmt;
   std::string adhesion = fmt::format("F0 = {}  # [N/m]", f.adhesion_force);
   if (jkr || dmt) adhesion = fmt::format("W = {}  # [J/m2]", f.adhesion_energy);
   if (jkr) adhesion += fmt::format("\nU = (math.pi * W * R**2 / (6 * K))**(2 / 3) / R  # [m]");
-  return filled(yade_force, {{"K", written(f.stiffness)},
+  return filled(yade_force, {{"K", shortest(f.stiffness)},
                              {"ADHESION", adhesion},
-                             {"CH", written(f.hertz_damping)},
-                             {"CA", written(f.adhesion_damping)},
-                             {"DASHPOT", written(f.dashpot)},
+                             {"CH", shortest(f.hertz_damping)},
+                             {"CA", shortest(f.adhesion_damping)},
+                             {"DASHPOT", shortest(f.dashpot)},
                              {"PARTED", jkr ? "-3 * U" : "0.0"},
                              {"ACTS", f.phase == AdhesionDampingPhase::both ? "v" : "max(v, 0.0)"},
                              {"LAW", jkr   ? yade_jkr
                                      : dmt ? yade_dmt
                                            : yade_ring},
-                             {"RHO", written(f.density)}});
+                             {"RHO", shortest(f.density)}});
 }
 
 }  // namespace
 
-std::vector<ExportedFile> yade_files(const ExportJob& job) {
+std::vector<WholeFile> yade_files(const ExportJob& job) {
   const std::string head = filled(yade_head, {{"HEADING", commented(job.heading, "# ")},
-                                              {"V", written(typical_velocity(job.impact))},
-                                              {"DT", written(time_step(job.impact))},
-                                              {"DURATION", written(longest_run(job.impact))},
-                                              {"R", written(job.force.radius)}});
+                                              {"V", shortest(typical_velocity(job.impact))},
+                                              {"DT", shortest(time_step(job.impact))},
+                                              {"DURATION", shortest(longest_run(job.impact))},
+                                              {"R", shortest(job.force.radius)}});
   return {{"impact.py", head + yade_body(job)}};
 }
 

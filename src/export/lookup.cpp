@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "export/export_job.hpp"
 
@@ -16,7 +17,8 @@ constexpr std::size_t most_nodes = 513;
 constexpr std::size_t first_sizes = 3;
 constexpr std::size_t most_sizes = 17;
 
-/// Where `at` lies between the values, clamped: the lower neighbour and the part of the way.
+/// The lower neighbour of `at` among ascending values, and the fraction of the distance to the next
+/// one, both clamped.
 std::pair<std::size_t, double> between(const std::vector<double>& values, double at) {
   if (values.size() == 1 || at <= values.front()) return {0, 0.0};
   if (at >= values.back()) return {values.size() - 2, 1.0};
@@ -31,7 +33,7 @@ struct Question {
   const LookupRequest& request;
 };
 
-/// V* of every size; empty where one is not captured.
+/// V* of every size; empty if one is not captured.
 std::vector<double> captures(const Question& q, const std::vector<double>& sizes) {
   if (without_adhesion(q.model, q.request.dataset)) return {};
   std::vector<CaptureQuery> queries;
@@ -47,13 +49,7 @@ std::vector<double> captures(const Question& q, const std::vector<double>& sizes
 std::vector<double> spaced_sizes(const LookupRequest& request, std::size_t count) {
   const double first = request.sizes.front();
   const double last = request.sizes.back();
-  if (!(last > first)) return {first};
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < count; ++i) {
-    sizes.push_back(
-        first * std::pow(last / first, static_cast<double>(i) / static_cast<double>(count - 1)));
-  }
-  return sizes;
+  return last > first ? log_spaced(first, last, count) : std::vector<double>{first};
 }
 
 RestitutionLookup with_nodes(const Question& q, std::size_t nodes, std::size_t size_count) {
@@ -67,7 +63,7 @@ RestitutionLookup with_nodes(const Question& q, std::size_t nodes, std::size_t s
   const double least = *std::min_element(out.scale.begin(), out.scale.end());
   const double first = out.captures ? 1.0 : out.slowest;
   const double last = std::max(out.fastest / least, 1.01 * first);
-  for (std::size_t k = 0; k < nodes; ++k) {  // closest where e rises from its capture
+  for (std::size_t k = 0; k < nodes; ++k) {  // densest near capture
     const double part = static_cast<double>(k) / static_cast<double>(nodes - 1);
     out.multiple.push_back(first * std::pow(last / first, part * part));
   }
@@ -83,7 +79,7 @@ RestitutionLookup with_nodes(const Question& q, std::size_t nodes, std::size_t s
   return out;
 }
 
-/// Errors half way between the nodes, of V and of d.
+/// Computes the errors half way between the nodes in V and d.
 void measure(const Question& q, RestitutionLookup& lookup) {
   std::vector<double> sizes = lookup.diameter;
   for (std::size_t i = 0; i + 1 < lookup.diameter.size(); ++i) {

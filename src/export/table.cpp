@@ -23,7 +23,7 @@ std::vector<double> tabulated(double slowest, double fastest, double capture) {
   for (int i = 0; i < tabulated_velocities; ++i) {
     grid.insert(slowest * std::pow(fastest / slowest, i / (tabulated_velocities - 1.0)));
   }
-  // where e rises like sqrt(V - V*)
+  // e rises like sqrt(V - V*) here
   for (const double above : {0.0, 0.001, 0.005, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15}) {
     const double v = capture * (1.0 + above);
     if (v > slowest && v < fastest) grid.insert(v);
@@ -31,7 +31,7 @@ std::vector<double> tabulated(double slowest, double fastest, double capture) {
   return {grid.begin(), grid.end()};
 }
 
-/// e at every velocity; NaN where there is no answer.
+/// e at every velocity; NaN if there is no result.
 std::vector<double> restitutions(const ImpactModel& model, std::span<const double> theta,
                                  std::size_t dataset, const TabulatedSize& size) {
   std::vector<PointConditions> points;

@@ -4,7 +4,7 @@
 
 namespace recoil {
 
-/// What a table of e(V, d) is made of.
+/// The range of a table of e(V, d), and the bootstrap for its bands.
 struct TableRequest {
   std::size_t dataset = 0;
   std::vector<double> sizes;  ///< diameters [m]
@@ -17,7 +17,7 @@ struct TableRequest {
 
 struct BandedNumber {
   double value = 0.0;
-  bool banded = false;  ///< are there bands?
+  bool banded = false;  ///< `lower` and `upper` are known
   double lower = 0.0, upper = 0.0;
 };
 
@@ -25,21 +25,21 @@ struct BandedNumber {
 struct TabulatedSize {
   double diameter = 0.0;  ///< [m]
   bool captures = false;
-  BandedNumber capture_velocity;  ///< [m/s]; where `captures`
-  std::vector<double> velocity;   ///< [m/s], log-spaced, and V* and what follows it closely
+  BandedNumber capture_velocity;  ///< [m/s], if `captures`
+  std::vector<double> velocity;   ///< [m/s], log-spaced, with additional ones at and above V*
   std::vector<BandedNumber> restitution;
 };
 
-/// With the pointwise percentile band of the replicates.
+/// The table with pointwise percentile bands of the replicates.
 std::vector<TabulatedSize> restitution_table(const ImpactModel& model,
                                              std::span<const double> theta,
                                              const TableRequest& request);
 
-/// `diameter_um,incident_velocity_m_s,restitution_1,lower_1,upper_1`; empty bands without
-/// replicates.
+/// The columns `diameter_um,incident_velocity_m_s,restitution_1,lower_1,upper_1`; the last two are
+/// empty without replicates.
 std::string csv_restitution(const std::vector<TabulatedSize>& table);
 
-/// `diameter_um,capture_velocity_m_s,lower_m_s,upper_m_s`, the sizes that are captured.
+/// The columns `diameter_um,capture_velocity_m_s,lower_m_s,upper_m_s` for the captured sizes.
 std::string csv_captures(const std::vector<TabulatedSize>& table);
 
 }  // namespace recoil

@@ -6,16 +6,15 @@
 
 namespace recoil {
 
-/// Every law of adhesion: its name in files and its struct. A further law is a header like
-/// jkr_law.hpp, which laws.hpp includes, and a line here. Its struct states what ContactLaw asks
-/// for; without one of the traits below it does not compile.
+/// Every law of adhesion: its name in files and its struct. A new law is a header like jkr_law.hpp,
+/// which laws.hpp includes, and a line here. It does not compile without one of the traits below.
 #define RECOIL_ADHESION_LAWS(LAW) \
   LAW(ring, RingAdhesionLaw)      \
   LAW(jkr, JkrLaw)                \
   LAW(dmt, DmtLaw)                \
   LAW(maugis, MaugisLaw)
 
-/// What holds sphere and surface together; the elastic part is Hertz's or the law's own.
+/// The law of adhesion.
 enum class AdhesionLaw {
 #define RECOIL_ENUMERATOR(name, Law) name,
   RECOIL_ADHESION_LAWS(RECOIL_ENUMERATOR)
@@ -29,21 +28,21 @@ struct NamesOf<AdhesionLaw> {
 #undef RECOIL_NAME
 };
 
-/// What the rest of the program has to know about a law. The struct of the law states all of them
-/// as static members of these names.
+/// The properties of a law that other code uses. The struct of the law has static members of these
+/// names.
 struct AdhesionLawTraits {
   std::string_view equation;       ///< "Maugis (1992), damped": model.equation of fit.json
   std::string_view description;    ///< one sentence for `say`, with {C_H} and so on for symbols
   std::string_view elastic_part;   ///< of the force, for the manual
-  std::string_view adhesive_part;  ///< the same
+  std::string_view adhesive_part;  ///< of the force, for the manual
   std::string_view undamped_loss;  ///< "loses nothing", for the manual
   bool by_force;                   ///< the parameter is f0 [N/m]; otherwise it is W [J/m2]
   bool jumps;                      ///< an undamped impact loses energy and can be captured
   bool has_range;             ///< depends on ImpactGroups::range, and holds at any Tabor parameter
-  bool attracts_at_distance;  ///< the attraction before contact is a part of the law
-  bool has_dashpot;           ///< WithDashpot works beside it
+  bool attracts_at_distance;  ///< includes the attraction before contact
+  bool has_dashpot;           ///< can be combined with WithDashpot
   bool exportable;            ///< other programs can compute its force (ContactForce)
-  bool quick_to_fit;          ///< in seconds; fits under every law leave out the others
+  bool quick_to_fit;          ///< in seconds; comparisons of all laws omit the others
   /// V*^2 [m2/s2] to first order in the dampings [s/m], `scale` being V_a [m/s].
   double (*capture_square)(double C_H, double C_A, bool both_phases, double scale);
 };

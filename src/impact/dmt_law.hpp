@@ -45,7 +45,7 @@ struct DmtLaw : HertzRadius {
     return {g.alpha, strength(g), g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  /// At the deepest q^3 = (5/2) p + (5/4) q^(-2), which is less than with q = (5/4)^(1/5).
+  /// At the deepest point q^3 = (5/2) p + (5/4) q^(-2), which is less than with q = (5/4)^(1/5).
   static LawPath path_of(const ImpactGroups& g) {
     const double p = strength(g);
     return {.resting = std::cbrt(p), .deepest = std::cbrt(2.5 * p + 1.143262629818316)};
@@ -67,14 +67,12 @@ struct DmtLaw : HertzRadius {
   }
   static bool admits(const ImpactGroups&) { return true; }
   static bool vanishes(const ImpactGroups&) { return false; }
-  /// Not known without integration: damping that is critical about the bottom does not hold a fast
-  /// sphere here, as it does not grow with the contact.
+  /// Not known without integration: a fast sphere can escape although small motions about the
+  /// bottom are overdamped, because the pull does not increase with the contact.
   static bool creeps(const ImpactGroups&) { return false; }
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
-  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
-                                                              double alpha, double p,
-                                                              double gamma) {
+  static PlainForces forces(double q, double u, double acts, double alpha, double p, double gamma) {
     const double hertz = -q * q * q;
     return {hertz, hertz * alpha * u, p, -p * acts * gamma * u};
   }

@@ -1,7 +1,7 @@
 // Compiled once for every instruction set (see CMakeLists.txt), each time with its own
-// RECOIL_KERNEL and RECOIL_LANES. No two of them have the same number of lanes: the templates are
-// then of different types, and the linker cannot mistake a function that was compiled for one
-// instruction set for that of another (tests/impact/kernel_symbols.sh looks at the symbols).
+// RECOIL_KERNEL and RECOIL_LANES. The numbers of lanes differ, so that the templates have different
+// types and the linker cannot replace a function for one instruction set by that for another
+// (tests/impact/kernel_symbols.sh checks the symbols).
 #include "impact/fast_kernel.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace recoil::RECOIL_KERNEL {
 namespace {
 
-/// A register's own type: of fixed_size_simd, which would do as well, max and min are calls.
+/// The type of a register. With fixed_size_simd, max and min would be function calls.
 using Pack =
     std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, RECOIL_LANES>>;
 
@@ -49,7 +49,7 @@ void solve_phases(Solver& solver, PhaseNeed need, std::span<const ImpactGroups> 
   }
 }
 
-/// Solves the impacts of `order` phase by phase, those that need the same nodes together; adds
+/// Solves the impacts of `order` phase by phase, in groups that need the same number of nodes. Adds
 /// those that fail to `left`.
 template <class Law>
 void solve_phases(std::span<const ImpactGroups> groups, const ImpactOptions& options,
@@ -79,7 +79,7 @@ void solve_phases(std::span<const ImpactGroups> groups, const ImpactOptions& opt
   solve_phases(solver, PhaseNeed::capture, groups, captured, coarse, results, left);
 }
 
-/// The law decides what a step may err: the path of JKR is longer, out to where the contact parts.
+/// Integrates the impacts of `order` by steps. The law scales the tolerance of a step.
 template <class Law, bool with_gradient>
 void solve_steps(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                  const Order& order, std::span<ImpactResult> results) {
@@ -93,8 +93,8 @@ template <class Law>
 void solve_batch(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                  std::span<ImpactResult> results) {
   Order all, left;
-  // StepSolver takes impacts with a dashpot or a seam of the law (LawPath::seam); and strong
-  // damping where the law is steep: above 0.5 the slope in beta had errors of 1e-7 and more.
+  // StepSolver solves impacts with a dashpot, with a seam of the law (LawPath::seam), and with
+  // strong damping under a steep law: above 0.5 the slope in beta had errors of 1e-7 and more.
   constexpr bool by_phases = Law::places.back() != place_of_kappa;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const bool by_steps =

@@ -8,13 +8,13 @@
 
 namespace recoil {
 
-/// Fills outcome, restitution_squared, steps and, when asked for, the gradient of every impact. The
-/// caller hands impacts whose outcome is not usable() over to the reference solver.
+/// Fills outcome, restitution_squared, steps and, if requested, the gradient of every impact. The
+/// caller solves impacts whose outcome is not usable() by the reference solver.
 using KernelFunction = void(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                             std::span<ImpactResult> results);
 
-// One per instruction set, all compiled from fast_kernel.cpp; which of the last two there are is
-// decided in CMakeLists.txt.
+// One per instruction set, all compiled from fast_kernel.cpp. CMakeLists.txt decides whether the
+// last two exist.
 namespace baseline {
 std::size_t lanes();
 KernelFunction simulate;
@@ -28,8 +28,8 @@ std::size_t lanes();
 KernelFunction simulate;
 }  // namespace avx512
 
-/// The inner loop of the fast solver for one instruction set. All of them give the same digits:
-/// every lane does the same IEEE operations in the same order, and none of them is fused.
+/// The inner loop of the fast solver for one instruction set. All kernels give the same digits,
+/// because every lane does the same IEEE operations in the same order, without fused ones.
 struct FastKernel {
   const char* name;   ///< "avx512", "avx2", "baseline"
   std::size_t lanes;  ///< impacts at a time

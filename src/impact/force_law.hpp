@@ -22,8 +22,10 @@ struct ContactForces {
 template <class H, class HD, class A, class AD>
 ContactForces(H, HD, A, AD) -> ContactForces<H, HD, A, AD>;
 
-/// The equation of the model, written once. Anything with + and * may run it: double, a dual
-/// number, one impact per lane of a SIMD register, or those with their partial derivatives.
+using PlainForces = ContactForces<double, double, double, double>;
+
+/// The equation of the model for any number type with + and *: double, a dual number, one impact
+/// per lane of a SIMD register, or such lanes with partial derivatives.
 /// @param acts 1 while the adhesion damping acts, else 0
 template <class Q, class U, class Alpha, class Beta, class Gamma, class Acts>
 constexpr auto contact_forces(const Q& q, const U& u, const Alpha& alpha, const Beta& beta,
@@ -54,15 +56,15 @@ constexpr auto potential_energy(const Q& q, const Beta& beta) {
 /// Depth of the adhesive well, the potential energy at x = beta: -(4/15) beta^(5/2) [m V^2].
 inline double well_depth(double beta) { return -4.0 / 15.0 * beta * beta * std::sqrt(beta); }
 
-/// A sphere on its way out has all but settled in the well when what is left above the bottom is
-/// this part of its depth. It then counts as resting at the bottom.
+/// A sphere on its way out counts as resting at the bottom of the well if its energy above the
+/// bottom is less than this part of the depth.
 inline constexpr double settled_part = 1e-10;
 
-/// True when the sphere is bound to creep into the well of the ring law: (C_H + C_A) V_a >= 2, the
-/// critical damping of small motions about its bottom (x'' + (alpha + gamma) beta^(3/2) x' +
-/// beta^(1/2) (x - beta) = 0 there, where a dashpot adds kappa beta^(1/2) x'). Such a sphere never
-/// has an outer turning point, at whatever velocity it arrives: found by integration from V / V_a =
-/// 1e-3 to 1e4, not proved (tests/impact/outcome_test.cpp asks the reference again).
+/// True if the sphere creeps into the well of the ring law without an outer turning point:
+/// (C_H + C_A) V_a >= 2, the critical damping of small motions about the bottom (x'' + (alpha +
+/// gamma) beta^(3/2) x' + beta^(1/2) (x - beta) = 0, where a dashpot adds kappa beta^(1/2) x').
+/// That this holds at every incident velocity was found by integration from V / V_a = 1e-3 to 1e4,
+/// and is not proved (tests/impact/outcome_test.cpp compares with the reference).
 inline bool creeps_into_the_well(const ImpactGroups& groups) {
   constexpr double critical_damping = 2.0;
   const double fourth_root = std::sqrt(std::sqrt(groups.beta));
@@ -70,20 +72,20 @@ inline bool creeps_into_the_well(const ImpactGroups& groups) {
   return damping * fourth_root >= critical_damping;
 }
 
-/// Where an impact begins and ends, in the q of its law.
+/// The beginning, the end and other places of an impact, in the q of its law.
 struct LawPath {
-  double start = 0.0;    ///< at touch
-  double release = 0.0;  ///< du/dsigma = 0 here, and the potential energy
-  double resting = 0.0;  ///< the bottom of the well, where a sphere that stays comes to rest
-  double deepest = 0.0;  ///< not before the deepest point of an undamped impact, and close to it
+  double start = 0.0;        ///< first contact
+  double release = 0.0;      ///< end of the contact, where du/dsigma and the potential energy are 0
+  double resting = 0.0;      ///< the bottom of the well, where a captured sphere comes to rest
+  double deepest = 0.0;      ///< slightly beyond the deepest point of an undamped impact
   double range_slope = 0.0;  ///< d start / d (the group `range`)
-  /// Is the law another on either side of q = 0? It is smooth on each, and the last of its
-  /// constants is 1 where q < 0 and else 0.
+  /// True if the law differs on the two sides of q = 0. It is smooth on each side, and the last of
+  /// its constants is 1 for q < 0 and otherwise 0.
   bool seam = false;
 };
 
-/// A place on the path of an undamped impact, in the units of Maugis: energies in pi W r (pi^2 W^2
-/// r / K^2)^(1/3), contact radii in (pi W r^2 / K)^(1/3).
+/// A point of an undamped impact in the units of Maugis: energies in pi W r (pi^2 W^2 r /
+/// K^2)^(1/3), contact radii in (pi W r^2 / K)^(1/3).
 template <class T>
 struct LawPlace {
   T energy;  ///< of the bodies and the adhesion
@@ -91,25 +93,26 @@ struct LawPlace {
   T stored;  ///< elastic energy of the bodies, without that of the surfaces
 };
 
-/// Where deepest_contact looks for the deepest place of an undamped impact: in the coordinate of
-/// `place_at` of the law.
+/// The range in which deepest_contact searches for the deepest point of an undamped impact, in the
+/// coordinate of `place_at` of the law.
 struct DeepestSearch {
-  double start_energy = 0.0;        ///< where the impact begins
+  double start_energy = 0.0;        ///< at the beginning of the impact
   double start_energy_slope = 0.0;  ///< its derivative in lambda
-  double from = 0.0, to = 0.0;      ///< the deepest place lies between
+  double from = 0.0, to = 0.0;      ///< they enclose the deepest point
 };
 
-/// V*^2 [m2/s2] of a law that loses nothing without damping: the loss is J times the damping.
+/// V*^2 [m2/s2] of a law without loss in an undamped impact: the loss is J times the damping.
 inline double small_damping_square(double J, double C_H, double C_A, bool both_phases,
                                    double scale) {
   const double damping = (both_phases ? 2.0 : 1.0) * C_A + 2.0 * C_H;
   return 2.0 * J * damping * scale * scale * scale;
 }
 
-/// What laws have in common whose contact has the radius of Hertz, x = q^2.
+/// Common to laws with Hertz's contact radius, x = q^2.
 struct HertzRadius {
-  /// A dashpot along the contact radius, the force -kappa x^(1/2) u, adds -kappa u times this to
-  /// du/dsigma; kappa in units of `dashpot_unit`, which goes with this power of beta.
+  /// A dashpot proportional to the contact radius, the force -kappa x^(1/2) u, adds -kappa u times
+  /// this to du/dsigma. kappa is in units of `dashpot_unit`, which is proportional to beta to the
+  /// power `dashpot_power`.
   template <class Q, class... Values>
   static constexpr auto dashpot_weight(const Q& q, const Values&...) {
     return (q + q) * q;
@@ -122,9 +125,10 @@ struct HertzRadius {
   static double clock(double q, double, double, double) { return 2.0 * q; }
 };
 
-/// The model as a solver of any number type sees it: another law is another struct like this one.
-/// After q and u its functions take `groups` numbers, in which the gradient is asked for, and
-/// `constants`, in which it is not. `strength` is the law's own measure of the adhesion.
+/// The ring law of Li, Dunn & Brach (1999) for solvers of any number type. The other laws have the
+/// same members. After q and u their functions take `groups` numbers, for which the gradient is
+/// computed, and `constants` numbers, for which it is not. `strength` is the group that measures
+/// the adhesion.
 struct RingAdhesionLaw : HertzRadius {
   static constexpr std::string_view equation = "Li, Dunn & Brach (1999), eq. 5";
   static constexpr std::string_view description =
@@ -152,7 +156,7 @@ struct RingAdhesionLaw : HertzRadius {
     return {g.alpha, g.beta, g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  /// At the deepest x = (5/3) beta + (5/4) x^(-3/2), which is less than with x = (5/4)^(2/5).
+  /// At the deepest point x = (5/3) beta + (5/4) x^(-3/2), less than with x = (5/4)^(2/5).
   static LawPath path_of(const ImpactGroups& g) {
     return {.resting = std::sqrt(g.beta),
             .deepest = std::sqrt(5.0 / 3.0 * g.beta + 1.0933620739432781)};
@@ -173,17 +177,16 @@ struct RingAdhesionLaw : HertzRadius {
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
 
   /// The four forces [m V^2 / n_c].
-  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
-                                                              double alpha, double beta,
-                                                              double gamma) {
+  static PlainForces forces(double q, double u, double acts, double alpha, double beta,
+                            double gamma) {
     return contact_forces(q, u, alpha, beta, gamma, acts);
   }
-  /// The largest energy on the way [m V^2].
+  /// The larger of the elastic and the adhesive energy [m V^2].
   static double largest_energy(double q, double, double beta, double) {
     return std::max(0.4 * std::pow(q, 5), 2.0 / 3.0 * beta * q * q * q);
   }
-  /// Where potential (2/3) beta q^3 and kinetic energy, u ~ q^(3/2), are below `energy`, about the
-  /// release and u = 0.
+  /// The radius about the release and u = 0 within which potential energy, (2/3) beta q^3, and
+  /// kinetic energy, u ~ q^(3/2), are below `energy`.
   static double cusp_radius(const ImpactGroups& g, double energy) {
     return std::cbrt(energy / std::max(g.beta, 1.0));
   }

@@ -11,9 +11,9 @@
 
 namespace recoil {
 
-/// When the adhesion damping acts; it always takes energy out.
-/// Printed with the sign of Li, Dunn & Brach (1999) eq. 5, a positive C_A would feed energy in and
-/// e could exceed 1; `rebound` is their words ("acts during the rebound phase").
+/// The phase in which the adhesion damping acts. It always dissipates energy: with the sign printed
+/// in Li, Dunn & Brach (1999), eq. 5, a positive C_A would supply energy and e could exceed 1.
+/// `rebound` follows their text ("acts during the rebound phase").
 enum class AdhesionDampingPhase { rebound, both };
 
 template <>
@@ -21,7 +21,7 @@ struct NamesOf<AdhesionDampingPhase> {
   static constexpr std::array<std::string_view, 2> names = {"rebound", "both"};
 };
 
-/// How an impact ended. The last two carry no answer and are never turned into numbers.
+/// The outcome of an impact. The last two have no result.
 enum class ImpactOutcome { rebound, captured, integration_failure, step_limit };
 
 template <>
@@ -30,35 +30,34 @@ struct NamesOf<ImpactOutcome> {
                                                             "integration failure", "step limit"};
 };
 
-/// Where the incident kinetic energy went, in units of m V^2 (so it starts with 1/2).
+/// The energy budget of an impact in units of m V^2; the incident energy is 1/2.
 struct EnergyBudget {
-  double kinetic = 0.0;        ///< at the end: of the rebound, or 0 when captured
-  double potential = 0.0;      ///< at the end: Hertz minus adhesion; 0 after a release
-  double hertz_loss = 0.0;     ///< taken by C_H
-  double adhesion_loss = 0.0;  ///< taken by C_A
-  double dashpot_loss = 0.0;   ///< taken by kappa
-  double largest = 0.0;        ///< largest single energy on the way, the yardstick of the audit
+  double kinetic = 0.0;        ///< at the end: of the rebound, or 0 if captured
+  double potential = 0.0;      ///< at the end: elastic minus adhesive; 0 after a release
+  double hertz_loss = 0.0;     ///< dissipated by C_H
+  double adhesion_loss = 0.0;  ///< dissipated by C_A
+  double dashpot_loss = 0.0;   ///< dissipated by kappa
+  double largest = 0.0;        ///< largest single energy during the impact
 
-  /// 1/2 - (kinetic + potential + losses), relative to `largest`: zero but for integration error.
+  /// 1/2 - (kinetic + potential + losses), divided by `largest`: the error of integration.
   double audit() const;
 };
 
-/// Places in ImpactResult::gradient.
+/// Indices in ImpactResult::gradient.
 inline constexpr std::size_t place_of_kappa = 3, place_of_range = 4;
 
 /// The result of one dimensionless impact.
 ///
-/// `restitution_squared` is e^2 after a rebound (the text speaks of the ring law; under the others
-/// the depth of the well is that of their struct). After a capture it is continued below
-/// zero as 2 H / (m V^2), H = mechanical energy at the first outer turning point: C1 across the
-/// capture velocity, never below the depth of the adhesive well, -(8/15) beta^(5/2) = -(8/15) (V /
-/// V_a)^-2, so that a fit has gradients there. A sphere so strongly damped that it creeps into the
-/// well without turning once more has no outer turning point; it ends on that floor.
+/// `restitution_squared` is e^2 after a rebound. After a capture it is continued below zero, so
+/// that a fit has gradients: it is 2 H / (m V^2), H the mechanical energy at the first outer
+/// turning point. The continuation is C1 at the capture velocity, and at least twice the depth of
+/// the adhesive well, which for the ring law is -(8/15) beta^(5/2) = -(8/15) (V / V_a)^-2. A
+/// strongly damped sphere creeps into the well without an outer turning point and has this value.
 struct ImpactResult {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;
   std::array<double, 5> gradient = {};  ///< d e^2 / d (alpha, beta, gamma, kappa, range)
-  EnergyBudget energy;                  ///< when asked for
+  EnergyBudget energy;                  ///< if requested
   double contact_time = 0.0;            ///< until release or the outer turning point [n_c / V]
   double penetration_max = 0.0;         ///< [n_c]
   double force_compression = 0.0;       ///< largest push of the surface on the sphere [m V^2 / n_c]
@@ -70,19 +69,19 @@ struct ImpactResult {
   }
 };
 
-/// What to compute and how exactly.
+/// The law, the quantities to compute and the tolerances.
 struct ImpactOptions {
   AdhesionLaw adhesion = AdhesionLaw::ring;
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   bool gradient = false;          ///< forward sensitivities
   bool budget = false;            ///< energy budget, contact time and peak forces
-  bool dashpot = false;           ///< the law with kappa; without, kappa has to be 0
+  bool dashpot = false;           ///< the law has a dashpot; otherwise kappa has to be 0
   double tolerance = 1e-11;       ///< relative, per step, of the reference
   long max_steps = 200000;        ///< of the reference
   double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver
 };
 
-/// One moment of an impact, dimensionless as above; forces are signed, positive pushes outward.
+/// One moment of a dimensionless impact. Positive forces push outward.
 struct ImpactMoment {
   double time = 0.0;
   double penetration = 0.0;
@@ -94,35 +93,35 @@ struct ImpactMoment {
   double dashpot = 0.0;
 };
 
-/// Integrates one impact from touch to release or to the first outer turning point.
+/// Integrates one impact from first contact to release or to the first outer turning point.
 ///
 /// Reference solver: SUNDIALS CVODES (Adams, variable order) with forward sensitivities, on the
 /// field made polynomial by q = sqrt(x), dt = 2 q dsigma:
 ///   dq/dsigma = u,   du/dsigma = 2 q^2 [beta (1 + gamma S) - q^2 (1 + alpha u)].
-/// The square roots of the force law make the right-hand side in (x, t) only Hoelder-1/2 at touch
-/// and release; in (q, sigma) the release is a transversal crossing of q = 0.
-/// @param history when not null, receives every step of the integrator.
+/// The square roots of the force law make the right-hand side in (x, t) only Hoelder-1/2 at first
+/// contact and release; in (q, sigma) the release is a transversal crossing of q = 0.
+/// @param history gets every step of the integrator, unless it is null
 ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options = {},
                              std::vector<ImpactMoment>* history = nullptr);
 
-/// e^2 and its gradient, several impacts per SIMD register: the two phases as integral equations
-/// (impact/phase_solver.hpp), or where these do not converge by a method of fixed order on the
-/// regularised field (impact/step_solver.hpp). Hundreds to thousands of times faster than the
-/// reference, and never a different answer. Certified against the reference over a wide box, see
-/// tests/impact/fast_solver_test.cpp: e^2 to 1e-9, gradient to 1e-7.
+/// Computes e^2 and its gradient for several impacts per SIMD register. Solves the two phases as
+/// integral equations (impact/phase_solver.hpp), or, if these do not converge, integrates the
+/// regularised field by a method of fixed order (impact/step_solver.hpp). It is hundreds to
+/// thousands of times faster than the reference, with the same results: tests/impact/
+/// fast_solver_test.cpp compares e^2 to 1e-9 and the gradient to 1e-7 over a wide range.
 ///
-/// Where neither can hold its accuracy (too many or too small steps) the reference answers
-/// instead, and is counted. The same digits come out for an impact alone or among others, at any
-/// register width. No memory is allocated.
-/// `options.budget` is not supported here. @pre !options.budget, results.size() == groups.size()
-/// @return how many impacts were handed over
+/// If neither method is accurate (too many or too small steps), the reference solves the impact. An
+/// impact has the same digits alone and among others, at any register width. No memory is
+/// allocated.
+/// @pre !options.budget, results.size() == groups.size()
+/// @return the number of impacts solved by the reference
 long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results);
 
-/// The same for one impact. Many at once cost a fraction of this each.
+/// The same for one impact, which takes longer per impact than many at once.
 ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOptions& options);
 
-/// How many impacts of this process were handed over to the reference so far.
+/// The number of impacts that this process has solved by the reference instead of the fast solver.
 long reference_handovers();
 
 /// The contact at the deepest point of an undamped impact, under jkr, dmt or maugis.

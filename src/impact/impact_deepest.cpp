@@ -12,8 +12,8 @@ namespace {
 /// Numbers with derivatives in the coordinate of the law (variable 0) and in lambda (variable 1).
 using Varied = Partial<double, 3U>;
 
-/// The undamped impact has the incident energy 1 / (2 Lambda) at the start of its path, m V^2 being
-/// 1 / Lambda, Lambda = MaugisLaw::strength. All of it is potential energy at the deepest place.
+/// m V^2 is 1 / Lambda in the units of Maugis, Lambda = MaugisLaw::strength. At the deepest point
+/// all of the incident energy 1 / (2 Lambda) is potential energy.
 template <class Law>
 DeepestContact deepest_under(const ImpactGroups& g) {
   const double strength = MaugisLaw::strength(g);
@@ -59,7 +59,7 @@ DeepestContact deepest_contact(AdhesionLaw law, double beta, double range) {
   const ImpactGroups groups{0.0, beta, 0.0, 0.0, range};
   ImpactOptions options;
   options.adhesion = law;
-  // Below the first, adhesion is less than 1e-12 of the incident energy.
+  // Below this beta, adhesion is less than 1e-12 of the incident energy.
   if (beta < 1e-5 || without_adhesion(groups, options)) return without_any();
   return with_law(law, [&]<class Law>() {
     if constexpr (std::is_same_v<Law, RingAdhesionLaw>) {

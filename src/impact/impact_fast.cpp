@@ -14,8 +14,8 @@ namespace {
 
 std::atomic<long> handovers{0};
 
-/// Does the kernel give the digits of `baseline` for a rebound, a capture and a strongly damped
-/// impact? Guards against compilers that mistranslate wide registers.
+/// True if the kernel gives the digits of `baseline` for a rebound, a capture and a strongly damped
+/// impact. This guards against errors of compilers with wide registers.
 bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
   std::array<ImpactGroups, 3> impacts = {ImpactGroups{0.01, 0.1, 0.4, 0.0, 0.4},
                                          ImpactGroups{0.02, 3.0, 0.02, 0.0, 2.0},
@@ -44,8 +44,8 @@ bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
   return true;
 }
 
-/// The floor of e^2 for a sphere that creeps into the well of `Law`: 2 depth, which goes with
-/// beta^(5/2). False for one that does not.
+/// Sets the result of a sphere that creeps into the well of `Law`: e^2 is twice the depth, which is
+/// proportional to beta^(5/2). Returns false for any other sphere.
 template <class Law>
 bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
   if (!Law::creeps(groups)) return false;
@@ -55,7 +55,7 @@ bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
   return true;
 }
 
-/// True when the answer is known without integration; `result` then holds it.
+/// Sets `result` and returns true if it is known without integration.
 bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
                     ImpactResult& result) {
   if (!is_admissible(groups, options)) {
@@ -111,7 +111,7 @@ const std::vector<FastKernel>& fast_kernels() {
 long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results) {
   assert(!options.budget && results.size() == groups.size());
-  // Runs of impacts between those that are answered at once are simulated together.
+  // Consecutive impacts that need integration are simulated together.
   std::size_t begin = 0;
   long handed_over = 0;
   for (std::size_t i = 0; i <= groups.size(); ++i) {

@@ -4,7 +4,6 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <memory>
 #include <sundials/sundials_context.hpp>
@@ -19,9 +18,9 @@ namespace {
 
 constexpr int anderson_depth = 0;    // the field is not stiff: plain functional iteration
 constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
-// At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
-// the release and u = 0 the energy that is left is below 1e-15 m V^2 (`cusp_radius` of the law) and
-// decides.
+// On the separatrix q falls like sigma^-2 and never reaches the release. The integration ends
+// within a circle about the release and u = 0 where the remaining energy is below this [m V^2]
+// (`cusp_radius` of the law), and its sign decides between rebound and capture.
 constexpr double undecided_energy = 1e-15;
 
 enum class Stage { compression, restitution };
@@ -36,7 +35,7 @@ struct Field {
   double cusp_radius_squared;
   Stage stage = Stage::compression;
 
-  /// Whether the adhesion damping acts: 0 or 1.
+  /// 1 if the adhesion damping acts, else 0.
   double acts() const {
     return phase == AdhesionDampingPhase::both || stage == Stage::restitution ? 1.0 : 0.0;
   }
@@ -47,7 +46,7 @@ const Field<Law>& field_of(void* user_data) {
   return *static_cast<const Field<Law>*>(user_data);
 }
 
-/// act(groups..., constants...) with the groups as `Number(value, direction)` makes them.
+/// act(groups..., constants...), with each group converted by number(value, direction).
 template <class Law, class Number, class Act>
 auto with_values(const Field<Law>& f, Number number, Act act) {
   return [&]<std::size_t... k, std::size_t... c>(std::index_sequence<k...>,
@@ -66,7 +65,7 @@ auto with_values(const Field<Law>& f, Act act) {
 template <class Law>
 constexpr bool has_dashpot = Law::places.back() == place_of_kappa;
 
-/// The dashpot's power over u^2.
+/// The dashpot's power divided by u^2.
 template <class Law>
 double dashpot_power(const Field<Law>& f, double q) {
   const double weight = with_values(f, [&](auto... v) { return Law::dashpot_weight(q, v...); });
@@ -84,7 +83,7 @@ int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
   return 0;
 }
 
-/// s_dot = (d field / d y) s + d field / d p, every partial derivative from the one force law.
+/// s_dot = (d field / d y) s + d field / d p, with partial derivatives of the force law.
 template <class Law>
 int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vector* s,
                                 N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
@@ -189,14 +188,14 @@ class Integration {
     return code;
   }
 
-  /// Passes the inner turning point: the adhesion damping switches on (continuously, as u = 0), and
-  /// the events to look for become those of the restitution.
+  /// Begins the restitution at the inner turning point: the adhesion damping is switched on, which
+  /// is continuous at u = 0, and the events become those of the restitution.
   bool turn() {
     field_.stage = Stage::restitution;
     return restart(1, 0.0);
   }
 
-  /// True when the last root was the seam of the law, which is not an end.
+  /// True if the last root was the seam of the law, which does not end the impact.
   bool at_seam() const {
     std::array<int, 4> found = {};
     CVodeGetRootInfo(memory_.get(), found.data());
@@ -205,7 +204,7 @@ class Integration {
            (first || (found[1] == 0 && found[2] == 0));
   }
 
-  /// Goes on with the law of the other side.
+  /// Continues with the law of the other side.
   bool pass_seam() {
     if constexpr (Law::constants > 0) {
       double& side = field_.constants.back();
@@ -214,7 +213,8 @@ class Integration {
     return restart(0, 0.0);
   }
 
-  /// Puts a sphere that has all but settled to rest at the bottom of the well; true when it did.
+  /// Puts a sphere that has nearly settled at the bottom of the well. @return true if it has
+  /// settled
   bool settles() {
     const double energy = 0.5 * u() * u() + potential();
     if (!(energy < (1.0 - settled_part) * depth_)) return false;
@@ -223,16 +223,16 @@ class Integration {
     return true;
   }
 
-  /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
-  /// arc length: H' = 0 at a turning point (u = 0), and so it is at a release (u' = 0) unless a
-  /// dashpot acts there, which the sensitivity of u at the same q allows for.
+  /// d (2 H) / d group at the end of the impact. A change of the arc length needs no correction,
+  /// because H' = 0 at a turning point (u = 0) and at a release (u' = 0). A dashpot at the release
+  /// is included by the sensitivity of u at constant q.
   bool energy_gradient(std::array<double, 5>& gradient) {
     if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
     using Dual = ceres::Jet<double, 1 + static_cast<int>(Law::groups)>;
     const Dual potential = with_values(
         field_, [](double value, int k) { return Dual(value, 1 + k); },
         [&](auto... v) -> Dual { return Law::potential(Dual(q(), 0), v...); });
-    // At the release q is the same for all neighbours: they have moved on by -s_q / u in sigma.
+    // At the release q is constant, and sigma changes by -s_q / u.
     const bool released = u() < 0.0;
     const double pull =
         released ? with_values(
@@ -263,7 +263,7 @@ class Integration {
            CVodeSetRootDirection(memory, directions.data()) == CV_SUCCESS;
   }
 
-  /// Begins anew from here, with component `which` of the state at `value`.
+  /// Restarts the integration here, after setting component `which` of the state to `value`.
   bool restart(int which, double value) {
     if (options_.gradient && CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
     NV_Ith_S(state_.get(), which) = value;
@@ -318,7 +318,7 @@ class Integration {
   static constexpr int groups_count = static_cast<int>(Law::groups);
   static constexpr int quadratures = has_dashpot<Law> ? 4 : 3;  // time and the losses
 
-  // Declared in the order of dependence: everything below lives in the context.
+  // The context has to be declared first, because all other members depend on it.
   sundials::Context context_;
   ImpactOptions options_;
   ImpactGroups impact_;
@@ -346,7 +346,7 @@ void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactRe
       with_values(f, [&](auto... v) { return Law::forces(q, run.u(), f.acts(), v...); });
   double dashpot = 0.0;
   if constexpr (has_dashpot<Law>) {
-    // Under JKR it grows without limit towards the parting, where it is left out.
+    // Under JKR it grows without limit towards the release, where it is omitted.
     const double clock = with_values(f, [&](auto... v) { return Law::clock(q, v...); });
     dashpot = clock > 0.0 && q > f.path.release ? dashpot_power(f, q) * run.u() / clock : 0.0;
   }
@@ -388,7 +388,7 @@ void finish(Integration<Law>& run, const ImpactOptions& options, ImpactResult& r
   result.energy.potential = potential;
 }
 
-/// From touch to release or to the first outer turning point.
+/// Simulates from first contact to release or to the first outer turning point.
 template <class Law>
 ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
                       std::vector<ImpactMoment>* history) {

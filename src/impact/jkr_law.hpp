@@ -12,18 +12,18 @@ namespace recoil {
 /// The contact of Johnson, Kendall & Roberts (1971), Proc. R. Soc. A 324, 301-313, with the two
 /// dampings of eq. 5: C_H on the elastic part, C_A on the adhesive part. With the contact radius a,
 ///   P = K a^3 / r - (6 pi W K a^3)^(1/2),   n = a^2 / r - (8 pi W a / (3 K))^(1/2):
-/// the contact opens at n = 0 with a finite radius and parts at the smallest n, below zero, so that
-/// an undamped impact loses the work in between, 7.0922 (W^5 r^4 / E*^2)^(1/3).
+/// The contact forms at n = 0 with a finite radius and breaks at the smallest n, below zero, so
+/// that an undamped impact loses the work in between, 7.0922 (W^5 r^4 / E*^2)^(1/3).
 ///
-/// In z = (a / a_p)^(1/2), a_p the radius at which it parts, and with dt = (dn / dz) dsigma, the
+/// In z = (a / a_p)^(1/2), a_p the radius at which it breaks, and with dt = (dn / dz) dsigma, the
 /// equation of motion is a polynomial:
 ///   dz/dsigma = u,  du/dsigma = -lambda (z^3 - 1) [z^6 (1 + alpha u) - 6 z^3 (1 + gamma S)],
 /// from z = 4^(1/3) to the release at z = 1. lambda = 4 6^(-10/3) beta^(5/2), where beta is that of
 /// the f0 that eqs 9 and 10 have for this W: both laws depend on the same three groups. q = z - 1.
 ///
-/// e^2 is as exact as that of the ring law; so is its gradient for beta > 1e-3. Below (V beyond
-/// 5000 V_a) the slope in beta goes with beta^(-1/4), and the solvers agree on it to 1e-4 of
-/// itself.
+/// e^2 is as accurate as under the ring law, and so is its gradient for beta > 1e-3. Below (V
+/// beyond 5000 V_a) the slope in beta is proportional to beta^(-1/4), and the relative difference
+/// of the solvers is 1e-4.
 struct JkrLaw {
   static constexpr std::string_view equation = "Johnson, Kendall & Roberts (1971), damped";
   static constexpr std::string_view description =
@@ -37,7 +37,7 @@ struct JkrLaw {
   static constexpr bool by_force = false, jumps = true, has_range = false;
   static constexpr bool attracts_at_distance = false, has_dashpot = true, exportable = true;
   static constexpr bool quick_to_fit = true;
-  /// The integrals of the forces along the path of a sphere that just parts.
+  /// From integrals of the forces along the path of a sphere at the capture velocity.
   static double capture_square(double C_H, double C_A, bool both_phases, double scale) {
     const double by_C_A = both_phases ? 0.655247 : 0.344548;
     const double loss = by_C_A * C_A + 0.670639 * C_H;
@@ -60,8 +60,8 @@ struct JkrLaw {
     return {g.alpha, strength(g), g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  /// From 4^(1/3) - 1; it rests at 6^(1/3) - 1. At the deepest z^10 < 10 z^7 + 5 / lambda, so that
-  /// z^3 < 10 + (5 / lambda)^(3/10) = 10 + 6 (5/4)^(3/10) beta^(-3/4).
+  /// It starts at 4^(1/3) - 1 and rests at 6^(1/3) - 1. At the deepest point z^10 < 10 z^7 +
+  /// 5 / lambda, so that z^3 < 10 + (5 / lambda)^(3/10) = 10 + 6 (5/4)^(3/10) beta^(-3/4).
   static LawPath path_of(const ImpactGroups& g) {
     const double hertz =
         6.0 * 1.069234599991188 / (std::sqrt(g.beta) * std::sqrt(std::sqrt(g.beta)));
@@ -80,7 +80,7 @@ struct JkrLaw {
     const Q pull = 6.0 * rate;
     return lambda * ((push + pull) + push * (alpha * u) + -(pull * (acts * (gamma * u))));
   }
-  /// Zero at the release, where the sphere has parted; at touch it is the work that is lost.
+  /// Zero at the release. At first contact it is the work that an undamped impact loses.
   template <class Q, class Alpha, class Lambda, class Gamma>
   static constexpr auto potential(const Q& q, const Alpha&, const Lambda& lambda, const Gamma&) {
     const Q polynomial =
@@ -92,10 +92,10 @@ struct JkrLaw {
     return polynomial * lambda;
   }
   static bool admits(const ImpactGroups&) { return true; }
-  /// Below, adhesion changes e by less than 1e-10 at any damping that lets a sphere come back.
+  /// Below this, adhesion changes e by less than 1e-10 at any damping with a rebound.
   static bool vanishes(const ImpactGroups& g) { return g.beta < 1e-14; }
-  /// Overdamped small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
-  /// (alpha + gamma) b^2 n', b = beta^(3/4). Not known where a dashpot acts.
+  /// True if small motions about the bottom of the well are overdamped: n'' = -(9/10) b^(2/3) (n -
+  /// n_0) - (alpha + gamma) b^2 n', b = beta^(3/4). Not known with a dashpot.
   static bool creeps(const ImpactGroups& g) {
     const double fourth_root = std::sqrt(std::sqrt(g.beta));
     return g.kappa == 0.0 && (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
@@ -104,9 +104,9 @@ struct JkrLaw {
     return potential(path_of(g).resting, 0.0, strength(g), 0.0);
   }
 
-  /// The elastic force as it was the relaxation time ago: the force -A d(K a^3 / r) / dt, the
-  /// -(3/2) A K (r n)^(1/2) n' of Hertz's contact. It grows without limit as the contact parts, but
-  /// takes a finite energy.
+  /// The delay of the elastic force by the relaxation time A: the force -A d(K a^3 / r) / dt, which
+  /// is -(3/2) A K (r n)^(1/2) n' for a Hertz contact. It grows without limit towards the release,
+  /// but dissipates a finite energy.
   template <class Q, class... Values>
   static constexpr auto dashpot_weight(const Q& q, const Values&...) {
     const Q z = q + 1.0;
@@ -126,28 +126,27 @@ struct JkrLaw {
   static double clock(double q, double, double lambda, double) {
     return 4.0 * std::pow(0.25 * lambda, 0.4) * q * (q * (q + 3.0) + 3.0);
   }
-  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
-                                                              double alpha, double lambda,
-                                                              double gamma) {
+  static PlainForces forces(double q, double u, double acts, double alpha, double lambda,
+                            double gamma) {
     const double cube = (q + 1.0) * (q + 1.0) * (q + 1.0);
     const double unit = std::pow(0.25 * lambda, 0.6);
     const double hertz = -unit * cube * cube;
     const double adhesion = 6.0 * unit * cube;
     return {hertz, hertz * alpha * u, adhesion, -adhesion * acts * gamma * u};
   }
-  /// The largest energy on the way [m V^2].
+  /// The larger of the elastic and the adhesive energy [m V^2].
   static double largest_energy(double q, double, double lambda, double) {
     const double z = q + 1.0;
     return lambda * std::pow(z, 7) * std::max(0.1 * z * z * z, 1.0);
   }
-  /// Where potential and kinetic energy are below `energy`, about q = u = 0.
+  /// The radius about q = u = 0 within which potential and kinetic energy are below `energy`.
   static double cusp_radius(const ImpactGroups& g, double energy) {
     return std::sqrt(energy / std::max(7.5 * strength(g), 0.5));
   }
 
   /// P = a^3 - (6 a^3)^(1/2), n = a^2 - (2/3) (6 a)^(1/2); the coordinate is a. As in
-  /// MaugisContact, 3 E = P n - a^2 + M, M half of a^2 times the mean squares 2/5 (Hertz) and 2/3
-  /// (a flat punch); E - M is half of the energy that the bodies store.
+  /// MaugisContact, 3 E = P n - a^2 + M, where M is half of a^2 times the mean squares 2/5 (Hertz)
+  /// and 2/3 (flat punch). E - M is half of the stored elastic energy.
   template <class T>
   static LawPlace<T> place_at(const T& a, const T&) {
     using std::sqrt;

@@ -10,7 +10,7 @@
 
 namespace recoil {
 
-/// The group of `Law` that is ImpactGroups::range.
+/// The index of ImpactGroups::range among the groups of `Law`.
 template <class Law>
 inline constexpr unsigned group_of_range = [] {
   unsigned k = 0;
@@ -18,7 +18,7 @@ inline constexpr unsigned group_of_range = [] {
   return k;
 }();
 
-/// A law of adhesion with its numbers, for one impact in each lane of `Pack`.
+/// A law of adhesion with its groups and constants, for one impact in each lane of `Pack`.
 template <class Law, class Pack>
 struct LawLanes {
   static constexpr unsigned parameters = Law::groups;
@@ -65,15 +65,15 @@ struct LawLanes {
     });
   }
 
-  /// With its derivatives, as `field_with_slopes`.
+  /// The potential energy with its derivatives: variable k + 1 is group k.
   [[gnu::always_inline]] auto potential_with_slopes(const Pack& q) const {
     return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
       return Law::potential(q, variable<k + 1>(groups[k])..., c...);
     });
   }
 
-  /// e^2 and its gradient at the end of the impact in `lane`, at q and u, where area(k) is D of
-  /// group k there (see StepSolver).
+  /// Writes e^2 and its gradient for the end of the impact in `lane` at q and u. area(k) is the D
+  /// of group k (see StepSolver).
   template <class Area>
   void write(std::size_t lane, const ImpactGroups& impact, double q, double u, bool gradient,
              const Area& area, ImpactResult& result) const {

@@ -12,7 +12,7 @@
 
 namespace recoil {
 
-/// act.template operator()<Law>(), Law being the struct of `law`.
+/// Calls act.template operator()<Law>() with the struct of `law`.
 template <class Act>
 [[gnu::always_inline]] inline auto with_law(AdhesionLaw law, const Act& act) {
   switch (law) {
@@ -43,12 +43,12 @@ constexpr AdhesionLawTraits traits_of() {
           .capture_square = Law::capture_square};
 }
 
-/// Can these numbers be simulated under `options`? An inadmissible trial point of an optimiser is a
-/// failure, not a crash.
+/// True if these groups can be simulated under `options`. For an optimiser, an inadmissible trial
+/// point is a failed impact.
 bool is_admissible(const ImpactGroups& groups, const ImpactOptions& options);
 
-/// The impact to simulate instead where the adhesion is too weak for the integration of its law and
-/// does not matter: Hertz's contact, which every law becomes.
+/// The impact without adhesion (a Hertz contact), if the adhesion is negligible and too weak for
+/// the integration of its law; otherwise nullopt.
 std::optional<std::pair<ImpactGroups, ImpactOptions>> without_adhesion(
     const ImpactGroups& groups, const ImpactOptions& options);
 

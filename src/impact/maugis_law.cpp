@@ -21,7 +21,7 @@ constexpr double gap = 1.0;
 
 double side_of(double s) { return s < 0.0 ? gap : touching; }
 
-/// s at which c is `outer` across a gap, where c is linear in s^2.
+/// The s at which c is `outer` across a gap. c is linear in s^2 there.
 double place_before_contact(const Contact& first_contact, double outer) {
   return -std::sqrt((first_contact.at_edge - outer) / first_contact.half_rate);
 }
@@ -48,7 +48,7 @@ MaugisPath found(double lambda) {
   path.scale = std::sqrt(1.0 + 2.0 / 3.0 * lambda * lambda);
 
   const auto varied = [&](double s) { return VariedContact(s, variable<0>(lambda), side_of(s)); };
-  constexpr double smallest = 1e-9;  // of a start, which is as good as the touch
+  constexpr double smallest = 1e-9;  // a smaller start is first contact
   const double slope = 2.0 * std::max(std::abs(path.start), smallest) *
                        Contact(path.start, lambda, side_of(path.start)).rate_in_w();
   path.start_slope = (reach / lambda - varied(path.start).approach().derivative<0>()) / slope;
@@ -80,7 +80,7 @@ DeepestSearch MaugisLaw::deepest_search(double strength, double lambda) {
 }
 
 MaugisPath maugis_path(double lambda) {
-  // The points of a fit have few lambda, and each is asked for many times.
+  // The points of a fit have few different lambda, and each is needed many times.
   struct Known {
     double lambda = 0.0;
     MaugisPath path;

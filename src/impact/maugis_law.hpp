@@ -11,8 +11,9 @@
 
 namespace recoil {
 
-/// arctan(t) / t from t^2, for t in [0, 1]: the polynomial of degree 19 in t^2 with the least error
-/// (Remez exchange), 3e-17. In powers of t^8 four short sums run side by side.
+/// arctan(t) / t as a function of t^2, for t in [0, 1]: the minimax polynomial of degree 19 in t^2
+/// (Remez exchange), with an error of 3e-17. It is evaluated as four sums in powers of t^8, which
+/// are independent of each other.
 template <class Q>
 [[gnu::always_inline]] inline Q arctan_over(const Q& square) {
   constexpr double c[20] = {1.0,
@@ -52,12 +53,12 @@ template <class Q>
 ///       + (4 lambda^2 a / 3) [(m^2 - 1)^(1/2) arcsec m - m + 1],
 ///   P = a^3 - lambda a^2 [(m^2 - 1)^(1/2) + m^2 arcsec m],
 ///   n = a^2 - (4/3) lambda a (m^2 - 1)^(1/2).
-/// The first is a square equation for c once m is chosen. Here s = (m^2 - 1)^(-1/2) is chosen, so
-/// that s = 0 is the point of first contact (a = 0). Before it the stress acts across a gap (Kim,
-/// McMeeking & Johnson 1998, J. Adhesion Sci. Technol. 12, 393-404):
+/// The first is a quadratic equation for c at given m. The coordinate is s = (m^2 - 1)^(-1/2), so
+/// that s = 0 is the first contact (a = 0). Before it, the stress acts across a gap (Kim, McMeeking
+/// & Johnson 1998, J. Adhesion Sci. Technol. 12, 393-404):
 ///   P = -(pi / 2) lambda c^2,   n = c^2 / 2 - (8 / (3 pi)) lambda c - 2 / (pi lambda),
-/// and c goes on with the slope in w = -s^2 that it has in w = s^2 where the contact begins. On
-/// either side everything is smooth in s; from one to the other n and P are smooth up to s^3.
+/// and c continues with the slope in w = -s^2 that it has in w = s^2 at first contact. Everything
+/// is smooth in s on each side; across s = 0, n and P are smooth up to s^3.
 /// @tparam Q of s, @tparam L of lambda: any number with + * / and sqrt
 template <class Q, class L>
 struct MaugisContact {
@@ -126,9 +127,9 @@ struct MaugisContact {
         range * ((2.0 / 3.0) * (cube * at_edge) + -((4.0 / 3.0) * (inverse * half_rate)));
     return edge + beyond * (slope + (0.5 * beyond) * (half_rate * half_rate));
   }
-  /// Energy of the bodies less that of the same bodies far apart, the integral of P dn. For any
-  /// load by a stress within c, envelope theorem and scaling give 3 E = P n - pi W c^2 + (second
-  /// moment of the stress) / (2 r).
+  /// Energy of the bodies relative to infinite separation, the integral of P dn. For any stress
+  /// within c, the envelope theorem and scaling give 3 E = P n - pi W c^2 + (second moment of the
+  /// stress) / (2 r).
   [[gnu::always_inline]] L energy() const {
     const L radius = outer * share;
     const L square = outer * outer;
@@ -140,17 +141,17 @@ struct MaugisContact {
   }
 };
 
-/// The places on the way of a sphere under MaugisLaw that depend on lambda alone, as s of
-/// MaugisContact (below 0 across a gap); energies in pi W r (pi^2 W^2 r / K^2)^(1/3).
+/// Places of an impact under MaugisLaw, which depend only on lambda, as s of MaugisContact
+/// (negative across a gap); energies in pi W r (pi^2 W^2 r / K^2)^(1/3).
 struct MaugisPath {
-  double start = 0.0;        ///< after the jump in, which is at the approach n = -W / s0
+  double start = 0.0;        ///< after the jump into contact at the approach n = -W / s0
   double start_slope = 0.0;  ///< d start / d lambda
-  double release = 0.0;      ///< where it parts: the smallest n
+  double release = 0.0;      ///< end of the contact: the smallest n
   double resting = 0.0;      ///< P = 0
-  double scale = 0.0;        ///< of s, so that start and release are of order one
+  double scale = 0.0;        ///< unit of s, with which start and release are of order one
   double energy_at_release = 0.0;
   double energy_slope = 0.0;    ///< d energy_at_release / d lambda
-  double energy_at_rest = 0.0;  ///< less that at the release
+  double energy_at_rest = 0.0;  ///< relative to the release
   double cusp = 0.0;            ///< half the curvature of the energy in s about the release
 };
 
@@ -158,19 +159,19 @@ struct MaugisPath {
 MaugisPath maugis_path(double lambda);
 
 /// The contact of Maugis (1992), MaugisContact, from the first attraction to the last, with the two
-/// dampings of eq. 5: C_H on its elastic part a^3, C_A on its adhesive part. It becomes JkrLaw as
-/// lambda grows. As lambda vanishes it becomes DmtLaw and the attraction across the gap W / s0
-/// before and after, which the others leave out and which costs nothing without damping.
+/// dampings of eq. 5: C_H on its elastic part a^3, C_A on its adhesive part. It tends to JkrLaw for
+/// large lambda. For small lambda it tends to DmtLaw with the attraction across the gap W / s0
+/// before and after, which the other laws omit and which is conservative without damping.
 ///
-/// The adhesive stress sets in where the gap falls to W / s0, at the approach n = -W / s0; V is the
-/// velocity there. An undamped impact loses what jumping in and out costs, from 0 to 7.0922 (W^5
+/// The adhesive stress begins when the gap is W / s0, at the approach n = -W / s0; V is the
+/// velocity there. An undamped impact loses the energy of jumping in and out, from 0 to 7.0922 (W^5
 /// r^4 / E*^2)^(1/3).
 ///
 /// With q = s / scale and dt = (dn / dq) dsigma,
 ///   dq/dsigma = u,  du/dsigma = -Lambda (dn/dq) [a^3 (1 + alpha u) - P_a (1 + gamma S)],
 /// in the units of Maugis for n, a and P_a. Lambda = 6^(-5/3) beta^(5/2), where beta is that of the
-/// f0 that eqs 9 and 10 have for this W. The scale is a unit, held where derivatives in lambda are
-/// taken.
+/// f0 that eqs 9 and 10 have for this W. The scale is a unit, which is constant in derivatives in
+/// lambda.
 struct MaugisLaw {
   static constexpr std::string_view equation = "Maugis (1992), damped";
   static constexpr std::string_view description =
@@ -185,13 +186,13 @@ struct MaugisLaw {
   static constexpr bool by_force = false, jumps = true, has_range = true;
   static constexpr bool attracts_at_distance = true, has_dashpot = false, exportable = false;
   static constexpr bool quick_to_fit = false;
-  /// That of JKR: a start for a search only.
+  /// The value for JKR, used only as the start of a search.
   static double capture_square(double C_H, double C_A, bool both_phases, double scale) {
     return JkrLaw::capture_square(C_H, C_A, both_phases, scale);
   }
 
   static constexpr unsigned groups = 4;  ///< alpha, Lambda, gamma, lambda
-  /// Scale; lambda, energy at release and its slope; whether there is a gap (LawPath::seam).
+  /// Scale; lambda, energy at release and its slope; 1 across a gap (LawPath::seam), else 0.
   static constexpr unsigned constants = 5;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2, 4};
   static constexpr double tolerance_share = 0.1;  ///< of the fast solver, per step
@@ -233,7 +234,7 @@ struct MaugisLaw {
     const auto pull = rate * contact.adhesive();
     return strength * ((push + pull) + push * (alpha * u) + -(pull * (acts * (gamma * u))));
   }
-  /// Zero at the release, where the sphere has parted.
+  /// Zero at the release.
   template <class Q, class Alpha, class Strength, class Gamma, class Lambda, class Constant>
   static auto potential(const Q& q, const Alpha&, const Strength& strength, const Gamma&,
                         const Lambda& lambda, const Constant& scale, const Constant& at,
@@ -242,11 +243,11 @@ struct MaugisLaw {
     return strength * (contact.energy() + -((lambda + -at) * slope + energy));
   }
   static bool admits(const ImpactGroups& g) {
-    constexpr double largest_range = 1e6;  // no solid comes near
+    constexpr double largest_range = 1e6;  // much larger than for any solid
     return std::isfinite(g.range) && g.range >= 0.0 && g.range <= largest_range;
   }
-  /// Hertz's contact: V beyond 1e10 V_a, or bodies that attract each other over a million times the
-  /// depth to which adhesion alone presses them.
+  /// Adhesion is negligible at V beyond 1e10 V_a, or if the range of attraction is more than a
+  /// million times the depth to which adhesion presses the bodies.
   static bool vanishes(const ImpactGroups& g) { return g.range < 1e-6 || g.beta < 1e-8; }
   static bool creeps(const ImpactGroups&) { return false; }  ///< not known, as under DmtLaw
   static double depth(const ImpactGroups& g) {
@@ -264,18 +265,16 @@ struct MaugisLaw {
     return std::pow(strength, 0.4) * scale *
            MaugisContact<double, double>(q * scale, lambda, gap).rate();
   }
-  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
-                                                              double alpha, double strength,
-                                                              double gamma, double lambda,
-                                                              double scale, double, double, double,
-                                                              double gap) {
+  static PlainForces forces(double q, double u, double acts, double alpha, double strength,
+                            double gamma, double lambda, double scale, double, double, double,
+                            double gap) {
     const MaugisContact<double, double> contact(q * scale, lambda, gap);
     const double unit = std::pow(strength, 0.6);
     const double hertz = -unit * contact.elastic();
     const double adhesion = unit * contact.adhesive();
     return {hertz, hertz * alpha * u, adhesion, -adhesion * acts * gamma * u};
   }
-  /// The largest energy on the way [m V^2]: of the elastic part, or of the adhesion over the way.
+  /// The larger of the elastic and the adhesive energy [m V^2].
   static double largest_energy(double q, double, double strength, double, double lambda,
                                double scale, double, double, double, double gap) {
     const MaugisContact<double, double> contact(q * scale, lambda, gap);
@@ -283,14 +282,15 @@ struct MaugisLaw {
     return strength *
            std::max(0.4 * std::pow(radius, 5), contact.adhesive() * std::abs(contact.approach()));
   }
-  /// Where potential and kinetic energy are below `energy`, about the release and u = 0.
+  /// The radius about the release and u = 0 within which potential and kinetic energy are below
+  /// `energy`.
   static double cusp_radius(const ImpactGroups& g, double energy) {
     const MaugisPath path = maugis_path(g.range);
     const double curvature = path.cusp * path.scale * path.scale * strength(g);
     return std::sqrt(energy / std::max(curvature, 0.5));
   }
 
-  /// s where c / a is as close to 1 as it is there: with t = 1 / s small the equation for c says
+  /// s at the deepest point, where c / a is close to 1. For small 1 / s the equation for c gives
   /// s^3 = (2/3) lambda a^2 + (2/3) lambda^2 a s. The a is that of JkrLaw.
   static double deepest_of(const ImpactGroups& g) {
     const double hertz =

@@ -9,10 +9,9 @@
 
 namespace recoil {
 
-/// A value together with those of its first partial derivatives that are not identically zero: bit
-/// k of `Carried` says that the derivative in variable k is carried. Products and sums work out at
-/// compile time which derivatives they have, so that q * q of an undifferentiated q costs one
-/// multiplication and the derivative of the whole force law little more than the law itself.
+/// A value together with its first partial derivatives that are not identically zero: bit k of
+/// `Carried` is set if the derivative in variable k is stored. Products and sums determine their
+/// derivatives at compile time, so that q * q of a q without derivatives costs one multiplication.
 template <class T, unsigned Carried>
 struct Partial {
   T value;
@@ -22,7 +21,7 @@ struct Partial {
   static constexpr std::size_t place(unsigned k) {
     return static_cast<std::size_t>(std::popcount(Carried & ((1U << k) - 1U)));
   }
-  /// d value / d (variable k); zero where it is not carried.
+  /// d value / d (variable k); zero if it is not stored.
   template <unsigned k>
   constexpr T derivative() const {
     if constexpr (carries(k)) {
@@ -43,7 +42,7 @@ namespace partial_detail {
 
 inline constexpr unsigned most_variables = 16;
 
-/// rule.template operator()<k>() for every variable that `Carried` has.
+/// Calls rule.template operator()<k>() for every variable of `Carried`.
 template <unsigned Carried, class Rule>
 constexpr void for_each_carried(Rule&& rule) {
   [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
@@ -102,7 +101,7 @@ constexpr Partial<T, A> operator-(const Partial<T, A>& a) {
   return negative;
 }
 
-/// A factor that depends on none of the variables.
+/// Product with a factor that depends on no variable.
 template <class T, unsigned A>
 constexpr Partial<T, A> operator*(const std::type_identity_t<T>& factor, const Partial<T, A>& a) {
   Partial<T, A> product{factor * a.value, {}};
@@ -116,7 +115,7 @@ constexpr Partial<T, A> operator*(const Partial<T, A>& a, const std::type_identi
   return factor * a;
 }
 
-/// A term that depends on none of the variables.
+/// Sum with a term that depends on no variable.
 template <class T, unsigned A>
 constexpr Partial<T, A> operator+(const std::type_identity_t<T>& term, const Partial<T, A>& a) {
   return {term + a.value, a.derivatives};
@@ -126,7 +125,7 @@ constexpr Partial<T, A> operator+(const Partial<T, A>& a, const std::type_identi
   return {a.value + term, a.derivatives};
 }
 
-/// numerator / b, the numerator depending on none of the variables.
+/// Quotient with a numerator that depends on no variable.
 template <class T, unsigned B>
 constexpr Partial<T, B> operator/(const std::type_identity_t<T>& numerator,
                                   const Partial<T, B>& b) {

@@ -36,8 +36,7 @@ template <class Pack, std::size_t size>
   return even + odd;
 }
 
-/// The magnitude of the last two Legendre coefficients of the values: how well the rule resolves
-/// them.
+/// The magnitude of the last two Legendre coefficients of the values, a measure of the error.
 template <class Pack>
 [[gnu::always_inline]] inline Pack defect_of(const PhaseRule& rule, const Nodes<Pack>& values) {
   return abs(row_times(rule.last, values, rule.count)) +
@@ -54,8 +53,8 @@ template <class Act>
   (std::make_index_sequence<phase_block>{});
 }
 
-/// Rows `first` to `first` + phase_block - 1 of a matrix, times the values. The values of the
-/// earlier blocks come last in the sums, as they have just been computed.
+/// Rows `first` to `first` + phase_block - 1 of a matrix times the values. The values of earlier
+/// blocks are added last, because they were just computed.
 template <class Pack>
 [[gnu::always_inline]] inline std::array<Pack, phase_block> block_times(
     const double (*rows)[PhaseRule::most], const Nodes<Pack>& values, std::size_t first,
@@ -72,20 +71,19 @@ template <class Pack>
   return sums;
 }
 
-/// Compression or restitution, from the inner turning point to its other end, at the nodes of a
-/// PhaseRule. The energy lost up to a node is the integral of the rate D u dq/ds, in which u^2 / 2
-/// is the energy at the turning point less the potential energy, plus (compression) or minus
-/// (restitution) the energy lost. Successive substitution of the losses converges like M^n / n!,
-/// M = integral of D dsigma. Within a block of nodes the coupling is solved implicitly: a sweep
-/// then leaves 1e-4 to 1e-3 of a change of 1e-5, and left 2e-3 to 1e-2 without (median and ninth
-/// decile of the benchmark's rebounds). u follows by Newton's rule, which needs neither a root nor
-/// a quotient.
+/// Compression or restitution, from the inner turning point to the other end, at the nodes of a
+/// PhaseRule. The energy lost up to a node is the integral of the rate D u dq/ds. u^2 / 2 is the
+/// energy at the turning point less the potential energy, plus (compression) or minus (restitution)
+/// the energy lost. Successive substitution of the losses converges like M^n / n!, M = integral of
+/// D dsigma. The coupling within a block of nodes is solved implicitly, so that a sweep reduces a
+/// change of 1e-5 by a factor of 1e-4 to 1e-3, instead of 2e-3 to 1e-2 (median and ninth decile of
+/// the benchmark's rebounds). u follows from Newton's method, without a square root or division.
 template <class Pack>
 struct Phase {
   using Mask = typename Pack::mask_type;
 
   const PhaseRule& rule;
-  Pack length;           ///< of the way
+  Pack length;           ///< of the phase in q
   Nodes<Pack> place;     ///< q
   Nodes<Pack> height;    ///< energy at the inner turning point less the potential energy
   Nodes<Pack> damping;   ///< rate of the loss, per u and s
@@ -101,7 +99,7 @@ struct Phase {
 
   explicit Phase(const PhaseRule& of) : rule(of) {}
 
-  /// Places the nodes on the way from `deepest` to `end` and evaluates the law there.
+  /// Places the nodes between `deepest` and `end` and evaluates the law there.
   template <class Law>
   [[gnu::always_inline]] void place_nodes(const Law& law, const Pack& deepest, const Pack& end,
                                           const Pack& acts, const Pack& bottom) {
@@ -131,12 +129,13 @@ struct Phase {
     return row_times(rule.weight, values, rule.count);
   }
 
-  /// Sweeps over the blocks, each with the losses that the earlier blocks have just taken, until
-  /// the losses change by less than `settle_below` [m V^2]. Settled lanes keep their values.
+  /// Sweeps over the blocks, each with the new losses of earlier blocks, until the losses change by
+  /// less than `settle_below` [m V^2]. Settled lanes keep their values.
   /// @param arrive_below tolerance of the energy at the end [m V^2]
   /// @param place_again places the nodes for the present ends
-  /// @param missing error of the energy at the end for this loss
-  /// @param move moves the end of the lanes of a mask to reduce that error; true if any moved
+  /// @param missing the error of the energy at the end for a loss
+  /// @param move moves the ends of the lanes of a mask to reduce this error; returns true if any
+  ///   moved
   template <bool compression, class PlaceAgain, class Missing, class Move>
   [[gnu::always_inline]] void settle(double settle_below, double arrive_below,
                                      const PlaceAgain& place_again, const Missing& missing,
@@ -159,7 +158,7 @@ struct Phase {
       const Pack next_loss = row_times(rule.weight, rates, rule.count);
       const Pack left_over = abs(missing(next_loss));
       where(moving, sweeps) += 1.0;
-      // Changes that shrink by equal factors add up to change^2 / (last_change - change).
+      // The sum of further changes in a geometric series is change^2 / (last_change - change).
       const Mask close =
           change < 0.1 * settle_below ||
           (change < 1e3 * settle_below && change * change < settle_below * (last_change - change));
@@ -182,7 +181,7 @@ struct Phase {
   }
 
  private:
-  static constexpr double least = 1e-30;  // of u^2, so that there is 1 / u
+  static constexpr double least = 1e-30;  // of u^2, for a finite 1 / u
 
   template <bool compression>
   [[gnu::always_inline]] Pack half_square(std::size_t i) const {
@@ -199,9 +198,9 @@ struct Phase {
     slowness[i] = 1.0 / speed[i];
     rates[i] = damping[i] * speed[i];
   }
-  /// The losses at the nodes of a block, the coupling within the block to first order: d(rate) /
-  /// d(loss) = +-D dq/ds / u. Left out where that is steep, for u close to zero, as it is near a
-  /// capture: there it would keep the sweeps from settling.
+  /// The losses at the nodes of a block, with the coupling within the block to first order: d(rate)
+  /// / d(loss) = +-D dq/ds / u. The coupling is omitted if it is large, for small u near a capture,
+  /// where the sweeps would not converge.
   template <bool compression>
   [[gnu::always_inline]] std::array<Pack, phase_block> next_losses(std::size_t first) const {
     constexpr double steepest = 10.0;
@@ -218,10 +217,10 @@ struct Phase {
     });
     return next;
   }
-  /// Updates u and 1 / u of the moving lanes by a Newton step, or by a root where the step is long.
+  /// Updates u and 1 / u of the moving lanes by a Newton step, or by a square root for a long step.
   template <bool compression>
   [[gnu::always_inline]] void follow_block(std::size_t first, const Mask& moving) {
-    constexpr double longest = 0.02;  // of u; the step errs by half of its square
+    constexpr double longest = 0.02;  // relative to u; the error is half of the square of the step
     std::array<Pack, phase_block> squares;
     Pack furthest = 0.0;
     for_block([&](std::size_t k) {

@@ -6,8 +6,8 @@
 namespace recoil {
 namespace {
 
-/// Draws the nodes a little towards the release, where adhesion brings zeros of u close to the way.
-/// The best value for 12 and 16 nodes on the shipped fits, of 0, 0.15, 0.3, 0.45 and 0.6.
+/// Moves the nodes towards the release, where adhesion brings zeros of u close to the path. This is
+/// the best of 0, 0.15, 0.3, 0.45 and 0.6 for 12 and 16 nodes and the shipped fits.
 constexpr double crowding = 0.15;
 
 /// sin(pi x / 2) for x from 0 to 1.
@@ -41,7 +41,7 @@ Value legendre(std::size_t count, double x) {
   return {p[count], double(count) * (x * p[count] - p[count - 1]) / (x * x - 1.0)};
 }
 
-/// By Newton's steps from Tricomi's -cos(pi (4 k + 3) / (4 count + 2)); they mirror each other.
+/// By Newton's method from Tricomi's -cos(pi (4 k + 3) / (4 count + 2)). The roots are symmetric.
 std::vector<double> roots_of_legendre(std::size_t count) {
   std::vector<double> found(count);
   for (std::size_t k = 0; 2 * k < count; ++k) {
@@ -56,7 +56,7 @@ std::vector<double> roots_of_legendre(std::size_t count) {
   return found;
 }
 
-/// (1 + sign x) / 2 times the series, by the recurrence of the polynomials.
+/// The series times (1 + sign x) / 2, by the recurrence of the polynomials.
 GaussRule::Series times_half(const GaussRule::Series& series, double sign) {
   GaussRule::Series product(series.size());
   for (std::size_t k = 0; k < series.size(); ++k) {

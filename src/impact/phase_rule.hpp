@@ -5,8 +5,9 @@
 
 namespace recoil {
 
-/// Gauss's nodes s_i on [0, 1], with the rows that integrate the polynomial through values at the
-/// nodes, up to each node and up to 1, and that give its two highest Legendre coefficients.
+/// Gauss nodes s_i on [0, 1], with matrices that act on values at the nodes: they integrate the
+/// interpolating polynomial up to each node and up to 1, and give its two highest Legendre
+/// coefficients.
 struct GaussRule {
   using Row = std::vector<double>;
   using Series = std::vector<double>;  ///< coefficients of Legendre polynomials
@@ -23,25 +24,25 @@ struct GaussRule {
   /// sum_j row[j] f(s_j) = integral from 0 to s.
   Row integral_up_to(double s) const;
 
-  /// Cardinal functions for an f that is s, or with `at_both_ends` s (1 - s), times a polynomial:
-  /// the function j is 1 at node j and 0 at the other nodes. Integrals of such an f have an error
-  /// that vanishes with its slope where f does, so that a quotient of the integral and s^2 keeps
-  /// its digits at the first nodes.
+  /// Cardinal functions for an f that is a polynomial times s, or with `at_both_ends` times
+  /// s (1 - s): function j is 1 at node j and 0 at the other nodes. The error of the integral of f
+  /// then vanishes like s^2, so that the integral divided by s^2 is accurate at the first nodes.
   std::vector<Series> vanishing(bool at_both_ends) const;
 
-  /// As above, for an f that is a sum of the functions of `vanishing`.
+  /// The same for an f that is a sum of the functions of `vanishing`.
   Row integral_up_to(double s, const std::vector<Series>& vanishing) const;
 };
 
 /// How the second phase of an impact ends.
 enum class PhaseEnd { release, outer_turning_point };
 
-/// The nodes of a phase: part[i] is the fraction of the way from the inner turning point to the
-/// other end at node i, rate[i] its derivative in s. Where u vanishes it does so like the root of
-/// the way, so that u is smooth in s: the way is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u
-/// vanishes at both ends.
+/// The nodes of a phase: part[i] is the fraction of the distance in q from the inner turning point
+/// to the other end at node i, and rate[i] its derivative in s. u vanishes like the square root of
+/// this distance. The fraction is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u vanishes at both
+/// ends, so that u is smooth in s.
 ///
-/// Plain arrays, as the kernels of fast_kernel.cpp must not share an inline function.
+/// The members are plain arrays, because the kernels of fast_kernel.cpp must not share inline
+/// functions.
 struct PhaseRule {
   static constexpr std::size_t most = 24;  ///< nodes
   static constexpr std::size_t few = 8;    ///< nodes of the coarse rule

@@ -13,7 +13,7 @@
 
 namespace recoil {
 
-/// How many nodes an impact needs, as far as the coarse rule can tell.
+/// The nodes that an impact needs according to the coarse rule.
 enum class PhaseNeed : std::uint8_t { smooth, fine, capture };
 
 /// The result of the coarse rule for an impact. Start, release and so on are those of LawPath.
@@ -25,12 +25,12 @@ struct CoarseImpact {
   PhaseNeed need;
 };
 
-/// One impact per lane of `Pack`, each phase as an integral equation.
+/// Solves one impact per lane of `Pack`, each phase as an integral equation.
 ///
 /// With the energy H = u^2 / 2 + P(q) in place of time, compression and restitution are
 ///   dH/dq = -D(q) u,   u = +-(2 (H - P))^(1/2),   D = -df/du,
-/// two equations of first order (Phase) on ways whose ends are known but for the deepest point,
-/// which H(start) decides: there is no event to look for, and all lanes need the same work. D and P
+/// two equations of first order (Phase) on intervals with known ends, except for the deepest point,
+/// which follows from H(start). No events have to be found, and all lanes do the same work. D and P
 /// are smooth, so that the error falls exponentially with the number of nodes.
 template <class Law, class Pack>
 class PhaseSolver {
@@ -84,9 +84,9 @@ class PhaseSolver {
     }
   }
 
-  /// Solves impacts that the coarse rule has seen, with the nodes for `need`, and fills the results
-  /// of those that come out well.
-  /// @returns which do, by lane
+  /// Solves impacts after `solve_coarsely` with the nodes for `need`, and writes the results that
+  /// are accurate.
+  /// @returns true for each lane with an accurate result
   std::array<bool, lanes> solve(PhaseNeed need, std::span<const ImpactGroups> impacts,
                                 std::span<const std::uint32_t> order,
                                 std::span<const CoarseImpact> coarse,
@@ -144,9 +144,9 @@ class PhaseSolver {
     deepest_ -= (law_.potential(deepest_) - target_) / law_.slope(deepest_);
   }
 
-  /// From the touch to the deepest point.
+  /// From first contact to the deepest point.
   [[gnu::flatten]] void compress(Phase<Pack>& phase, double settle_below, double arrive_below) {
-    // The result is corrected for what is missing.
+    // The result is corrected for the missing energy.
     phase.template settle<true>(
         settle_below, arrive_below,
         [&] {
@@ -161,7 +161,8 @@ class PhaseSolver {
         });
     missing_ = (bottom_ + phase.loss) - target_;
   }
-  /// A deeper turning point takes more energy, and loses more of it: exp(held) in all.
+  /// Moves the turning point to supply the missing energy, divided by exp(held) because a deeper
+  /// turning point also increases the loss.
   [[gnu::always_inline]] void go_deeper(const Mask& moving, const Pack& held) {
     const Pack grows = 1.0 + held * (1.0 + held * (0.5 + held * (1.0 / 6.0 + held * (1.0 / 24.0))));
     const Pack height = bottom_ - missing_ / grows;
@@ -179,8 +180,8 @@ class PhaseSolver {
     for (std::size_t i = 0; i < PhaseRule::few; ++i) rates[i] = coarse.rates[i];
     phase.start_from(rates);
     phase.sweeps = coarse.sweeps;
-    // Where u vanishes at both ends, changes shrink by less and less: with the tolerance of a
-    // rebound, 17 of 1053 captures had errors of 3e-8 and more in a derivative, with this none
+    // If u vanishes at both ends, convergence becomes slower. With the tolerance of a rebound, 17
+    // of 1053 captures had errors of 3e-8 and more in a derivative; with this tolerance none had
     // 2e-9.
     restore(PhaseEnd::outer_turning_point, phase, 0.03 * settled_change_);
   }
@@ -204,7 +205,7 @@ class PhaseSolver {
         });
   }
 
-  /// As if the well were a parabola about its bottom.
+  /// Approximates the well by a parabola about its bottom.
   void guess_outer_turning_point() {
     const Pack bottom = law_.potential(deepest_);
     const Pack depth = law_.potential(resting_);
@@ -213,7 +214,7 @@ class PhaseSolver {
     end_ = resting_ - (resting_ - release_) * sqrt(pack_larger(Pack(0.0), 1.0 - part));
   }
 
-  /// exp(-x) for x from 0 to 6, to 1e-10 of itself.
+  /// exp(-x) for x from 0 to 6 with a relative error of 1e-10.
   static Pack decay(const Pack& x) {
     const Pack y = x * (-1.0 / 32.0);
     Pack e = 1.0 / 40320.0;
@@ -225,10 +226,10 @@ class PhaseSolver {
     return e;
   }
 
-  /// A change of the kinetic energy at a node has shrunk by exp(-x) at the end of the impact, x the
-  /// integral of D dsigma from there to the end. `held` is D dsigma / ds. The derivative of that
-  /// energy at the end is then the sum of the changes of the force with a parameter, weighted so:
-  /// the areas of StepSolver.
+  /// Adds the slopes of one phase. A change of the kinetic energy at a node is multiplied by
+  /// exp(-x) at the end of the impact, x the integral of D dsigma from there to the end. `held` is
+  /// D dsigma / ds. The derivative of the energy at the end is therefore the integral of the change
+  /// of the force with a parameter, with this weight: the areas of StepSolver.
   /// @param sign 1 for the compression, else -1
   [[gnu::always_inline]] void add_slopes(double sign, const Pack& acts, const Phase<Pack>& phase,
                                          const Nodes<Pack>& held) {
@@ -250,7 +251,7 @@ class PhaseSolver {
     }
   }
 
-  /// act.operator()<k>() for each group k.
+  /// Calls act.operator()<k>() for each group k.
   template <class Act>
   [[gnu::always_inline]] static void for_each_group(const Act& act) {
     [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
@@ -259,7 +260,7 @@ class PhaseSolver {
     (std::make_integer_sequence<unsigned, parameters>{});
   }
 
-  /// How much changes of the energy shrink, and the gradient of half of e^2.
+  /// Computes the decay of changes of the energy, and the gradient of half of e^2.
   [[gnu::flatten]] void follow_both(const Phase<Pack>& in, const Phase<Pack>& out) {
     const std::size_t count = in.rule.count;
     Nodes<Pack> held_in = {}, held_out = {};
@@ -283,7 +284,8 @@ class PhaseSolver {
     for_each_group([&]<unsigned p>() { slopes_[p] += potential.template derivative<p + 1>(); });
   }
 
-  /// Takes impacts out of `good` whose last coefficients are not small beside the gradient.
+  /// Writes the gradients, and clears `good` for impacts whose last coefficients are not small
+  /// compared with the gradient.
   void put_gradients(double most_error, std::span<const ImpactGroups> impacts,
                      std::span<const std::uint32_t> order, std::span<ImpactResult> results,
                      Mask& good) {
@@ -317,7 +319,7 @@ class PhaseSolver {
     }
   }
 
-  /// value(entry) of each impact in `order`; lanes that are left over get the first.
+  /// value(entry) of each impact in `order`. Unused lanes get the value of the first one.
   template <class Value>
   static Pack pack_of(std::span<const std::uint32_t> order, const Value& value) {
     std::array<double, lanes> values;
@@ -348,20 +350,20 @@ class PhaseSolver {
     target_ = 0.5 + law_.potential(start_);
   }
 
-  static constexpr int first_steps = 3;          // from LawPath::deepest, by Newton's rule
+  static constexpr int first_steps = 3;          // of Newton's method, from LawPath::deepest
   static constexpr double coarse_change = 1e-4;  // of the losses, with the coarse rule
   static constexpr double most_held = 6.0;       // of the integral of D dsigma
-  // An impact needs more nodes, or StepSolver, where the last two coefficients of the rates have
-  // not become small: the error of e^2 goes with their product with those of D dsigma / ds, that of
-  // the gradient with the product of its own with these and with themselves.
+  // An impact needs more nodes, or StepSolver, if the last two coefficients of the rates are not
+  // small. The error of e^2 is proportional to their product with the coefficients of D dsigma /
+  // ds, that of the gradient to the product of its coefficients with these and with themselves.
   static constexpr double most_defect = 1e-4;
-  // With the coarse rule such an impact has more than this: so 11 of 154 were missed and 17 of 831
-  // others taken for difficult (the impacts of the benchmark).
+  // Above this defect of the coarse rule an impact needs fine nodes. Of the benchmark's impacts, it
+  // misses 11 of 154 that do, and selects 17 of 831 that do not.
   static constexpr double most_coarse_defect = 0.016;
   static constexpr double most_e2_error = 1e-10;
   static constexpr double most_gradient_error = 1e-8;
-  // So it is where the energy at the end is this part of the whole: near capture a zero of u comes
-  // close to the way.
+  // It also needs StepSolver if the energy at the end is less than this part of the whole, because
+  // near capture a zero of u is close to the path.
   static constexpr double nearest = 0.02;
 
   const PhaseRules& rules_;
@@ -370,10 +372,10 @@ class PhaseSolver {
   double settled_change_;
   LawLanes<Law, Pack> law_;
   Pack start_ = 0.0, start_slope_ = 0.0, release_ = 0.0, resting_ = 0.0;
-  Pack deepest_ = 0.0, end_ = 0.0;  // q of the turning point and of the end
-  Pack target_ = 0.0;               // the energy at the start
-  Pack bottom_ = 0.0;               // potential energy at the turning point
-  Pack missing_ = 0.0;              // the energy at the start of the path that was found, less that
+  Pack deepest_ = 0.0, end_ = 0.0;    // q of the turning point and of the end
+  Pack target_ = 0.0;                 // the energy at the start
+  Pack bottom_ = 0.0;                 // potential energy at the turning point
+  Pack missing_ = 0.0;                // energy at the start of the computed path, less target_
   Pack held_ = 0.0, held_out_ = 0.0;  // integral of D dsigma, of the impact and of its second phase
   Pack held_defect_ = 0.0;            // the last two coefficients of what is integrated there
   Pack all_ = 0.0;                    // exp(-held_)

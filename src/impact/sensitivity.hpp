@@ -5,9 +5,9 @@
 
 namespace recoil {
 
-/// d e^2 / d p for every physical quantity p of an impact, the others held [1 / unit of p].
+/// d e^2 / d p for every physical quantity p of an impact, the others constant [1 / unit of p].
 struct ImpactSensitivity {
-  double diameter = 0.0;          ///< f0 held at this diameter [1/m]
+  double diameter = 0.0;          ///< with constant f0 [1/m]
   double velocity = 0.0;          ///< [s/m]
   double density = 0.0;           ///< [m3/kg]
   double stiffness = 0.0;         ///< K [1/Pa]
@@ -16,8 +16,8 @@ struct ImpactSensitivity {
   double adhesion_damping = 0.0;  ///< C_A [m/s]
 };
 
-/// The gradient in the groups carried on to the physical quantities: alpha = C_H V, gamma = C_A V
-/// and beta ~ f0 K^(-3/5) rho^(-2/5) D^(-1) V^(-4/5), which follows from A and B of ImpactGroups.
+/// Converts the gradient in the groups to physical quantities: alpha = C_H V, gamma = C_A V and
+/// beta ~ f0 K^(-3/5) rho^(-2/5) D^(-1) V^(-4/5), which follows from A and B of ImpactGroups.
 /// @param impact the impact under `conditions`, with its gradient
 ImpactSensitivity impact_sensitivity(const ImpactConditions& conditions,
                                      const ImpactResult& impact);

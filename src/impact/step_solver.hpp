@@ -14,23 +14,23 @@
 
 namespace recoil {
 
-/// Integrates several impacts at once, one per lane of `Pack`, each with its own step size and end;
-/// a lane that has finished takes the next impact of the queue.
+/// Integrates several impacts at once, one per lane of `Pack`, each with its own step size and end.
+/// A lane that has finished takes the next impact of the queue.
 ///
-/// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`, from the
-/// law's q at touch to that at the release, where f = 0. Its last step before an event takes u
-/// (turning point) or q (release) as the independent variable and so ends on it exactly (Henon
-/// 1982, Physica D 5, 412-414): an event step.
+/// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`, from first
+/// contact to the release, where f = 0. The last step before an event uses u (turning point) or q
+/// (release) as the independent variable and so ends exactly at the event (Henon 1982, Physica D 5,
+/// 412-414): an event step.
 ///
-/// The gradient uses that a planar flow has only one direction in which neighbouring paths can
-/// part: with F = (u, f), the area D_p = F x (d state / d p) obeys
-///   D_p' = (df/du) D_p + u df/dp,   D_p = -f dq/dp at touch,
-/// whatever the parametrisation of the path (Melnikov 1963 uses the same area). So
-///   D_p = (1/mu) [D_p(touch) + integral mu u (df/dp) dsigma],   mu' = -(df/du) mu,  mu = 1 at
-///   touch:
-/// one more component and one integral per parameter instead of two components per parameter. At
-/// both ends d(e^2)/dp = 2 D_p + 2 dP/dp at constant q, P = potential energy; at the inner turning
-/// point D_p passes on unchanged, as f does not jump there.
+/// The gradient uses the area D_p = F x (d state / d p), F = (u, f), because in a planar flow
+/// neighbouring paths separate in only one direction. It obeys
+///   D_p' = (df/du) D_p + u df/dp,   D_p = -f dq/dp at first contact,
+/// for any parametrisation of the path (Melnikov 1963 uses the same area). So
+///   D_p = (1/mu) [D_p(first contact) + integral mu u (df/dp) dsigma],
+///   mu' = -(df/du) mu,  mu = 1 at first contact,
+/// which needs one more component and one integral per parameter, instead of two components per
+/// parameter. At both ends d(e^2)/dp = 2 D_p + 2 dP/dp at constant q, P = potential energy. D_p is
+/// continuous at the inner turning point, because f is.
 template <class Law, class Pack, bool with_gradient>
 class StepSolver {
  public:
@@ -55,14 +55,14 @@ class StepSolver {
   static constexpr std::size_t lanes = Pack::size();
   using Mask = typename Pack::mask_type;
   static constexpr unsigned parameters = Law::groups;
-  /// A law of several hundred operations is better called than copied into each of the stages.
+  /// A law of several hundred operations is called instead of inlined into each of the stages.
   static constexpr bool is_long = Law::constants > 0;
 
   // Error of mu per step, relative to mu, in units of the tolerance of q and u: the gradient needs
   // fewer digits than e^2.
   static constexpr double mu_tolerance = 10.0;
   static constexpr double smallest_step = 1e-9;
-  static constexpr double smallest_fraction = 1e-3;  // of what is left to an event
+  static constexpr double smallest_fraction = 1e-3;  // of the distance to an event
   static constexpr double most_steps = 3000.0;  // an impact takes 40; a creep into the well 1500
 
   struct Step {
@@ -92,8 +92,8 @@ class StepSolver {
     return sum;
   }
 
-  /// One Runge-Kutta step of every lane. Lanes in an event step have their own independent
-  /// variable: u or q instead of the arc length.
+  /// One Runge-Kutta step of every lane. The independent variable is the arc length, or u or q in
+  /// an event step.
   [[gnu::flatten]] Step make_step() const {
     const bool some_land = any_of(landing_);
     const Pack length =
@@ -178,7 +178,7 @@ class StepSolver {
     }
   }
 
-  /// Accepts, repeats or turns into a landing the step of every lane.
+  /// Accepts the step of every lane, repeats it, or changes it to an event step.
   [[gnu::flatten]] void take(const Step& to) {
     steps_ += 1.0;
     const Mask good = to.error <= 1.0;  // false for NaN
@@ -214,7 +214,7 @@ class StepSolver {
     lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
   }
 
-  /// Where a landing that is no turning point has its q.
+  /// The q of an event that is no turning point.
   Pack landing_place() const {
     if constexpr (is_long) {
       return select(to_seam_, Pack(0.0), release_);
@@ -223,8 +223,8 @@ class StepSolver {
     }
   }
 
-  /// Does the law change between q_ and `q`, on the way towards q = 0? Then that comes before any
-  /// other event of the step. A lane that moves away from it has to turn first.
+  /// True for lanes that cross the seam of the law at q = 0 between q_ and `q`, moving towards it.
+  /// This precedes any other event of the step. A lane that moves away has to turn first.
   Mask crosses_seam([[maybe_unused]] const Pack& q) const {
     if constexpr (is_long) {
       return seam_ && q_ * q < 0.0 && q_ * u_ < 0.0;
@@ -241,7 +241,7 @@ class StepSolver {
     where(!good, factor) = min(Pack(after_failure), factor);
     where(!(error == error), factor) = most_shrinking;
     where(!landing_ && !crosses, length_) *= factor;
-    // What remains to the event after a part of it has been covered is 1 - fraction_.
+    // After an accepted part, 1 - fraction_ of the distance to the event remains.
     constexpr double never_zero = 1e-300;
     const Pack covered = min(Pack(1.0), fraction_ / (1.0 - fraction_ + never_zero) * factor);
     where(landing_, fraction_) = select(good, covered, fraction_ * factor);
@@ -279,7 +279,7 @@ class StepSolver {
                                                   : ImpactOutcome::integration_failure;
       return;
     }
-    // At rest in the well the path no longer matters, only the depth.
+    // At rest in the well the result depends on the depth only, not on the path.
     const double q = settled_[lane] ? resting_q_[lane] : q_[lane];
     const double u = settled_[lane] ? 0.0 : double(u_[lane]);
     const auto area = [&](unsigned k) {
@@ -288,8 +288,8 @@ class StepSolver {
     law_.write(lane, queue_[impact_[lane]], q, u, with_gradient, area, result);
   }
 
-  /// Puts the next impact of the queue into `lane`; an idle lane integrates an impact whose
-  /// result is discarded.
+  /// Puts the next impact of the queue into `lane`. An idle lane integrates an impact whose result
+  /// is discarded.
   void take_next(std::size_t lane) {
     const bool work = next_ < order_.size();
     impact_[lane] = work ? order_[next_] : 0;
@@ -329,23 +329,23 @@ class StepSolver {
   AdhesionDampingPhase phase_;
   double tolerance_;  // error of q and u per step; both are of order one
   std::size_t next_ = 0;
-  std::array<std::size_t, lanes> impact_ = {};  // which one each lane integrates
+  std::array<std::size_t, lanes> impact_ = {};  // the impact of each lane
 
   LawLanes<Law, Pack> law_;
-  Pack release_ = 0.0;  // its q
-  Pack acts_ = 0.0;     // whether the adhesion damping acts: 0 or 1
+  Pack release_ = 0.0;  // q of the release
+  Pack acts_ = 0.0;     // 1 if the adhesion damping acts, else 0
   Pack q_ = 0.0, u_ = 0.0, mu_ = 0.0;
   std::array<Pack, parameters> areas_ = {};  // integral of mu u df/dp
   Pack length_ = 0.0;                        // of the next step, in arc length
-  Pack fraction_ = 0.0;                      // of the way to the event, of the next landing step
+  Pack fraction_ = 0.0;                      // of the distance to the event, of the next event step
   Pack steps_ = 0.0;
   Pack resting_q_ = 0.0, settle_below_ = 0.0;
   Mask busy_{false};
   Mask turned_{false};      // past the inner turning point
-  Mask landing_{false};     // the next step is on the event's own clock:
-  Mask seam_{false};        // the law is another where q < 0
-  Mask to_seam_{false};     // the landing is on q = 0, where that begins
-  Mask to_turning_{false};  // u towards a turning point, else q towards the release
+  Mask landing_{false};     // the next step is an event step
+  Mask seam_{false};        // the law differs for q < 0
+  Mask to_seam_{false};     // the event is the seam at q = 0
+  Mask to_turning_{false};  // the event is a turning point, otherwise a release or seam
   Mask ended_{false}, settled_{false}, lost_{false};
 };
 

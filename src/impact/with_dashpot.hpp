@@ -9,16 +9,16 @@
 
 namespace recoil {
 
-/// A law of adhesion with a dashpot that works on its elastic part in both phases. Where a^2 = r n
-/// its force is -kappa x^(1/2) u, and two mechanisms have exactly this form. A viscoelastic bulk
-/// (Kuwabara & Kono 1987; Brilliantov et al. 1996): the force -(3/2) A K sqrt(r n) n' gives kappa =
-/// (3/2) A V / n_c. A thin plate that yields with the velocity F / Z (Zener 1941): n'' = -F / m -
-/// F' / Z with F = K sqrt(r) n^(3/2) gives kappa = (3/2) m V / (Z n_c).
+/// A law of adhesion with a dashpot on its elastic part in both phases. If a^2 = r n, its force is
+/// -kappa x^(1/2) u, and two mechanisms have exactly this form. A viscoelastic bulk (Kuwabara &
+/// Kono 1987; Brilliantov et al. 1996): the force -(3/2) A K sqrt(r n) n' gives kappa = (3/2) A V /
+/// n_c. A thin plate that yields with the velocity F / Z (Zener 1941): n'' = -F / m - F' / Z with F
+/// = K sqrt(r) n^(3/2) gives kappa = (3/2) m V / (Z n_c).
 ///
-/// Where adhesion widens the contact, both are the derivative of the elastic force in time,
-/// -A d(K a^3 / r) / dt (JkrLaw::dashpot_weight), which always takes energy out. Brilliantov et al.
-/// (2007), Phys. Rev. E 76, 051302, take the derivative of the whole force of JKR, adhesion
-/// included; between the greatest pull and the parting that force would give energy back.
+/// If adhesion widens the contact, both are the time derivative of the elastic force, -A d(K a^3 /
+/// r) / dt (JkrLaw::dashpot_weight), which always dissipates energy. Brilliantov et al. (2007),
+/// Phys. Rev. E 76, 051302, use the derivative of the whole JKR force including adhesion, which
+/// would supply energy between the largest pull and the end of the contact.
 template <class Law>
 struct WithDashpot {
   static constexpr unsigned groups = Law::groups + 1;  ///< those of Law, then kappa
@@ -95,7 +95,7 @@ struct WithDashpot {
   }
 
  private:
-  /// act(kappa, the values that Law takes...)
+  /// Calls act(kappa, the values that Law takes...).
   template <class Act, class... Values>
   [[gnu::always_inline]] static constexpr auto without_kappa(Act&& act, const Values&... values) {
     const auto all = std::forward_as_tuple(values...);
@@ -108,8 +108,8 @@ struct WithDashpot {
   }
 };
 
-/// The derivatives of e^2 in the groups of ImpactResult::gradient from those in the groups of
-/// `Law`. Always inline: compilations for different instruction sets must not share it.
+/// Converts derivatives of e^2 in the groups of `Law` to ImpactResult::gradient. It is always
+/// inline, because kernels for different instruction sets must not share it.
 template <class Law>
 [[gnu::always_inline]] inline std::array<double, 5> impact_gradient(
     const ImpactGroups& g, const std::array<double, Law::groups>& by) {

@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-/// The loading of one tension kappa, over the contact radius x.
+/// The loading at a tension kappa as a function of the contact radius x.
 class LoadedContact {
  public:
   explicit LoadedContact(double tension)
@@ -18,7 +18,7 @@ class LoadedContact {
 
   struct Load {
     double root;   ///< x^(1/2)
-    double s;      ///< inside of which the pressure is cut off
+    double s;      ///< the pressure is limited inside of this s
     double force;  ///< f
   };
   Load at(double x) const {
@@ -44,7 +44,7 @@ class LoadedContact {
     over_yield(x, [&](const Node& n) {
       sum += n.weight * (2.0 * n.z * n.z * n.z * (1.0 - n.s) * n.path + n.missing / n.z);
     });
-    // Where the contact yields as it opens, the sum begins at touch, which moves with kappa.
+    // If the contact yields from the beginning, the sum begins at touch, which depends on kappa.
     if (touch > yield) {
       const Node first = node_at(std::sqrt(touch));
       sum += first.missing * first.path * 2.0 / 3.0 * touch / kappa;
@@ -82,7 +82,7 @@ class LoadedContact {
         2.0 * x * x * (1.0 - s) * (x * (1.0 + s + s * s) / 3.0 - kappa / z - 0.5 * (1.0 + s));
     return {z, s, missing, 2.0 * x - kappa / z, 0.0};
   }
-  /// Sums the part that is cut off between yield and x, over nodes in z.
+  /// Sums the difference to JKR, from the onset of yield to x, over nodes in z.
   template <class Add>
   void over_yield(double x, Add add) const {
     const double start = std::max(yield, touch);
@@ -97,18 +97,18 @@ class LoadedContact {
     }
   }
 
-  double at_touch_ = 0.0;  ///< less the stored energy of JKR where the approach is 0
+  double at_touch_ = 0.0;  ///< minus the stored energy of JKR at zero approach
 };
 
-/// Where the work of loading is `energy`, beyond where the force turns positive.
+/// The x at which the work of loading is `energy`, in the range where the force is positive.
 double turning_point(const LoadedContact& contact, double energy) {
   // Without adhesion u = x^2 - 1 solves u^2 / 2 + 2 u / 3 = energy - 4 / 15; adhesion pulls deeper.
   const double rest = std::max(energy - 4.0 / 15.0, 0.0);
   double x = std::sqrt(1.0 - 2.0 / 3.0 + std::sqrt(4.0 / 9.0 + 2.0 * rest));
   x = std::max({x, contact.yield, contact.touch});
   for (int grow = 0; grow < 100 && !(contact.at(x).force > 0.0); ++grow) x *= 1.2;
-  // The work is convex there: Newton's first step may go too far, the others come down on the root,
-  // each with twice the digits of the one before.
+  // The work is convex there. Newton's first step may be too long; the others approach the root
+  // from above and double the digits.
   for (int step = 0; step < 60; ++step) {
     const double next = x - (contact.work(x) - energy) / (contact.at(x).force * contact.path(x));
     if (!(contact.at(next).force > 0.0)) {
@@ -140,7 +140,7 @@ AdhesiveYield adhesive_yield(double energy, double tension) {
   const double x_by_energy = 1.0 / slope;
   const double x_by_tension = -contact.work_by_tension(x) / slope;
 
-  // The place of the cut does not count: the pressure is continuous there.
+  // The derivative in s does not contribute, because the pressure is continuous there.
   const double force_by_x =
       2.0 * force / x + x * x * (2.0 / 3.0 * s * s * s + kappa * s / (x * root));
   const double pull = 2.0 * kappa * x * root;

@@ -31,12 +31,8 @@ Mechanism asperity_loss() {
             .plausible = {0.0, 1e-11,
                           "a contact of radius 0.1 um that yields by 10 nm at 1 GPa takes 3e-13 J"},
             .starts = {1e-15, 1e-13, 1e-12},
-            .stated_by = {StatedBy{Condition::surface_rms_roughness,
-                                   [](double roughness, const Surroundings&,
-                                      const Conditions&) -> std::optional<double> {
-                                     if (roughness > polished) return std::nullopt;
-                                     return 0.0;
-                                   }}}}},
+            .stated_by = {{.condition = Condition::surface_rms_roughness,
+                           .zero_up_to = polished}}}},
       .taken_away = TakenAway{Condition::surface_rms_roughness, polished,
                               "polish the target to a roughness of 1 nm"},
   });

@@ -31,7 +31,7 @@ Mechanism bulk_viscoelastic() {
                       .plausible = {0.0, 0.1, "limit of the formula"},
                       .starts = {1e-12, 1e-11, 1e-9},
                       // Ferry 1980, Viscoelastic Properties of Polymers: glasses have 0.01 to 0.1,
-                      // rubbers about 1 where they turn to glass.
+                      // rubbers about 1 at the glass transition.
                       .limit = {.quantity = "loss tangent of the contact, pi A over its duration",
                                 .upper = 1.0,
                                 .why = "organic solids have 0.01 to 0.1, metals less, rubbers at "

@@ -5,9 +5,9 @@ namespace {
 
 constexpr double water_surface_tension = 0.0728;  // [N/m] at 293 K (IAPWS)
 
-/// Radius of the meniscus of water at rest in air of this humidity [m], gamma V_m / (R T ln(1 / h))
-/// (Thomson 1871): 0 in dry air, without end where water condenses anyhow. A bridge of it pulls
-/// with 4 pi r gamma (1 - D / (2 r_K)) at the distance D, so l = r_K.
+/// Kelvin radius r_K of a meniscus of water in equilibrium with air of this humidity [m], gamma V_m
+/// / (R T ln(1 / h)) (Thomson 1871). It is 0 in dry air and very large in saturated air. The force
+/// of a bridge is 4 pi r gamma (1 - D / (2 r_K)) at the distance D, so that l = r_K.
 double kelvin_radius(double humidity, double temperature) {
   constexpr double molar_volume = 1.805e-5;     // of water at 293 K [m3/mol] (IAPWS)
   constexpr double gas_constant = 8.314462618;  // [J/(mol K)], CODATA 2018
@@ -16,9 +16,9 @@ double kelvin_radius(double humidity, double temperature) {
          (gas_constant * temperature * std::max(-std::log(humidity), 1e-9));
 }
 
-/// Below this pressure water cannot bridge the contact: vapour of no more than 100 Pa is at most
-/// 100 / 2339 of what saturates at 293 K (IAPWS), and its meniscus has a Kelvin radius of 0.17 nm,
-/// less than a molecule of water (0.28 nm).
+/// Below this pressure water cannot bridge the contact: the vapour then has at most 100 / 2339 of
+/// the saturation pressure at 293 K (IAPWS), and the Kelvin radius is at most 0.17 nm, less than a
+/// molecule of water (0.28 nm).
 constexpr double no_bridge_below = 100.0;  // [Pa]
 
 struct Capillary {

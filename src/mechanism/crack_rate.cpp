@@ -9,8 +9,8 @@
 namespace recoil {
 namespace {
 
-/// A place on the way of JKR, in the units of Maugis (1992): a in (pi W R^2 / K)^(1/3), n in
-/// (pi^2 W^2 R / K^2)^(1/3), energies in their product with pi W R.
+/// A point of the JKR curve in the units of Maugis (1992): a in (pi W R^2 / K)^(1/3), n in (pi^2
+/// W^2 R / K^2)^(1/3), energies in the unit of n times pi W R.
 template <class T>
 struct JkrPlace {
   T approach, slope, energy;  // n, dn / da, integral of P dn
@@ -26,13 +26,13 @@ struct JkrPlace {
   }
 };
 
-/// The opening where JKR's contact is the base model: a against n, and the undamped speed, are its
-/// own. n'^2 is that of an undamped sphere less what the opening has taken, and less what else is
-/// lost, spread evenly over the way out. From the greatest pull on the crack runs ahead of the
-/// sphere; there it is taken to keep the speed that it has then.
+/// The opening of the contact if JKR is the base model, which gives a(n) and the undamped speed.
+/// n'^2 is that of an undamped sphere less the energy that the opening has taken, and less all
+/// other losses, distributed evenly over the way out. From the largest pull on, the crack is faster
+/// than the sphere; its speed is assumed to be constant from there.
 template <class T>
 struct JkrOpening {
-  static inline const double pull = std::pow(1.5, 2.0 / 3.0);      // a^2 at the greatest pull
+  static inline const double pull = std::pow(1.5, 2.0 / 3.0);      // a^2 at the largest pull
   static inline const double parting = std::pow(6.0, -2.0 / 3.0);  // a^2 where dn / da = 0
 
   T exponent, speed, length, area, strength, most, unit, elsewhere;
@@ -56,9 +56,9 @@ struct JkrOpening {
   T undamped(const JkrPlace<T>& at) const {
     return speed - speed * (2.0 * strength * (at.energy - touch.energy));
   }
-  /// What the opening takes of n'^2 per a^2 at that a^2, where it has taken `taken`. It stops with
-  /// a captured sphere: n'^2 is rounded off at 0.0001 of that of the arrival.
-  /// @return with its slope in `taken`
+  /// The n'^2 that the opening takes per a^2 at this a^2, after it has taken `taken`. It ends when
+  /// a captured sphere stops, with a smooth transition at 1e-4 of the incident n'^2.
+  /// @return the rate and its slope in `taken`
   std::pair<T, double> rate(const T& square_of_a, double taken) const {
     const JkrPlace<T> at(sqrt(square_of_a));
     const T way = (deepest.approach - at.approach) / (deepest.approach - parted.approach);
@@ -80,8 +80,8 @@ T opening_under_jkr(const Encounter<T>& e, const T& work, const T& k) {
   const JkrOpening<double> plain(e.without_slopes(), value_of(work), value_of(k));
   if (!(plain.most > plain.pull)) return T(0.0);
   const JkrOpening<T> full(e, work, k);
-  // a^2 = pull + (most - pull) cos^2(pi s / 2), as the speed vanishes like a root at the most. In
-  // units of the square of the speed of arrival.
+  // a^2 = pull + (most - pull) cos^2(pi s / 2), because the speed vanishes like a square root at
+  // the largest a^2. The unit is the square of the incident speed.
   const auto part = [](double s) { return std::pow(std::cos(0.5 * std::numbers::pi * s), 2); };
   const auto stretch = [](double s) {
     return 0.5 * std::numbers::pi * std::sin(std::numbers::pi * s);
@@ -106,9 +106,9 @@ T opening_under_jkr(const Encounter<T>& e, const T& work, const T& k) {
   return 0.5 * e.mass() * (sum * plain.speed + (full.pull - full.parting) * last);
 }
 
-/// Work of separation w = w_0 + w_1 (v_c / (1 m/s))^k at the crack velocity v_c = |a'|,
-/// w_1 = s W_A: the work without rate is multiplied (Gent & Schultz 1972). The first term is paid
-/// back in closing, or is in the base model; the second costs on the way out.
+/// Work of separation w = w_0 + w_1 (v_c / (1 m/s))^k at the crack velocity v_c = |a'|, w_1 = s
+/// W_A, a multiple of the work without rate (Gent & Schultz 1972). The first term was gained when
+/// the contact closed, or belongs to the base model; the second is lost on the way out.
 struct CrackRate {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {

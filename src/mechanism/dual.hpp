@@ -7,9 +7,8 @@
 
 namespace recoil {
 
-/// A value with its derivatives in N directions: forward differentiation by the chain rule. The
-/// laws of the catalogue are written for any number type and run with double when no derivatives
-/// are asked for.
+/// A value with its derivatives in N directions (forward automatic differentiation). The laws of
+/// the catalogue are templates of the number type, and use double if no derivatives are needed.
 template <std::size_t N>
 struct Dual {
   double value = 0.0;
@@ -62,7 +61,7 @@ struct Dual {
   friend Dual operator-(Dual a) { return a *= -1.0; }
 };
 
-/// The plain value of a number of either type.
+/// The value of a double or a dual number.
 inline double value_of(double x) { return x; }
 template <std::size_t N>
 double value_of(const Dual<N>& x) {

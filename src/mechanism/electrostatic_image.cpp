@@ -5,12 +5,12 @@ namespace {
 
 constexpr double vacuum_permittivity = 8.8541878128e-12;  // [F/m], CODATA 2018
 
-// Electrons leave a surface by themselves from this field on (Hinds, Aerosol Technology, chapter on
-// charging; Gomer, Field Emission and Field Ionization). A positive sphere draws them from the
-// target.
+// Field emission begins here (Hinds, Aerosol Technology, chapter on charging; Gomer, Field Emission
+// and Field Ionization). A positive sphere draws electrons from the target.
 constexpr double emission_field = 9e8;  // [V/m]
-constexpr double vacuum_below = 100.0;  // [Pa]; there gaps of micrometres to centimetres hold
-// The highest potential that handling gave people and things, over a dry carpet (DOD-HDBK-263).
+constexpr double vacuum_below =
+    100.0;  // [Pa]; gaps of micrometres to centimetres do not break down
+// The highest potential by triboelectric charging, from walking on dry carpet (DOD-HDBK-263).
 constexpr double handling_potential = 35e3;  // [V]
 
 /// Field at which air breaks down around a sphere of radius r (Peek 1929, Dielectric Phenomena in
@@ -21,8 +21,8 @@ double breakdown_field(double pressure, double temperature, double radius) {
   return 2.72e6 * density * (1.0 + 0.054 / std::sqrt(density * radius));
 }
 
-/// Field of a sphere over the strongest that the gas and handling leave it. Where no pressure is
-/// stated the gas is air at 1 atm.
+/// Field of a sphere divided by the largest possible one, which the breakdown of the gas and the
+/// charging by handling limit. Without a stated pressure the gas is air at 1 atm.
 double field_over_strongest(const Encounter<double>& sphere, std::span<const double> own) {
   const double radius = sphere.radius();
   const double field =

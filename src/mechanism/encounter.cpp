@@ -8,8 +8,8 @@
 namespace recoil {
 namespace {
 
-/// Integral of f over [0, pi/2] by the midpoint rule: f is periodic and smooth in the angles used
-/// here, so that it converges faster than any power.
+/// Integral of f over [0, pi/2] by the midpoint rule. It converges faster than any power, because
+/// the integrands are periodic and smooth.
 template <class F>
 double over_quarter_turn(F f) {
   constexpr int count = 400;
@@ -46,7 +46,7 @@ double half_space_radiation(double poisson_ratio) {
   const auto rayleigh = [&](double k2) {
     return (2.0 * k2 - 1.0) * (2.0 * k2 - 1.0) - 4.0 * k2 * std::sqrt((k2 - g2) * (k2 - 1.0));
   };
-  double high = 4.0;  // slower than half of c_T a Rayleigh wave is only for nu < -0.9
+  double high = 4.0;  // a Rayleigh wave is slower than c_T / 2 only for nu < -0.9
   while (rayleigh(high) > 0.0) high *= 2.0;
   const double k2 = find_root(rayleigh, 1.0, high);
   const double root = std::sqrt((k2 - g2) * (k2 - 1.0));
@@ -76,7 +76,7 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.adhesion_energy = contact.adhesion_energy;
   s.elastomer = system.particle.is_elastomer() || system.surface.is_elastomer();
   s.method = system.method;
-  // Waves run in the surface: its own density, the sphere's only where none is stated.
+  // Waves travel in the surface. If it states no density, the sphere's is used.
   const Material& surface = system.surface;
   s.wave_mobility =
       half_space_mobility(surface.youngs_modulus, surface.poisson_ratio,

@@ -8,14 +8,14 @@
 namespace recoil {
 namespace {
 
-/// A sphere that its dashpot stops altogether: from here on e^2 < 5e-10 (and falls as kappa^-10),
-/// while the number of steps grows with kappa^2 until the solver gives up.
+/// From this kappa on the dashpot stops the sphere: e^2 < 5e-10 (falling as kappa^-10), while the
+/// number of steps would grow with kappa^2 until the solver fails.
 constexpr double overdamped = 12.0;
 
-/// For spheres that differ by another quantity than size.
+/// For spheres that differ in another quantity than size.
 const MixedSizes no_sizes;
 
-/// The groups of the base impact, carrying derivatives.
+/// The groups of the base impact with their derivatives.
 template <class T>
 struct Groups {
   T alpha, beta, gamma, kappa, range;
@@ -30,21 +30,12 @@ struct Groups {
 template <class T>
 Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, const T& velocity,
                          const T& diameter) {
-  Encounter<T> e;
-  e.at = point.at;
-  e.series = point.series;
-  e.take_materials();
-  e.measured_velocity = velocity;
-  e.diameter = diameter;
-  e.contact_radius = e.radius();
-  e.velocity = velocity;
+  Encounter<T> e = plain_sphere(*point.at, diameter, velocity, point.series);
   e.hertz_damping = values[0];
   e.adhesion_damping = values[1];
   e.adhesion_force = values[2] * power(e.radius() / relative_radius(point.at->reference_diameter,
                                                                     point.at->surface_diameter),
                                        1.0 / 3.0);
-  e.relaxation = T(0.0);
-  e.square = T(0.0);
   return e;
 }
 
@@ -54,10 +45,11 @@ Groups<T> groups_at_contact(const Encounter<T>& e) {
           1.5 * e.relaxation * e.velocity / e.scale(), e.range()};
 }
 
-/// e^2 of Hertz's contact with the dampings alpha and kappa that ends where its force vanishes,
-/// before n = 0: beyond, the dashpot would pull, and nothing holds the sphere (Schwager, T. &
-/// Poeschel, T. (2008), Phys. Rev. E 78, 051304). Runge and Kutta's method in the regularised time;
-/// du/dsigma = 0 at the end, so that the slopes of e^2 do not depend on where it is.
+/// e^2 of a Hertz contact with the dampings alpha and kappa that ends when its force vanishes,
+/// before n = 0: after that the dashpot would pull, although nothing holds the sphere (Schwager, T.
+/// & Poeschel, T. (2008), Phys. Rev. E 78, 051304). Integrated by the classical Runge-Kutta method
+/// in the regularised time. du/dsigma = 0 at the end, so that the slopes of e^2 do not depend on
+/// the place of the end.
 template <class N>
 N square_without_pull(const N& alpha, const N& kappa) {
   constexpr int steps = 128;
@@ -95,7 +87,7 @@ N square_without_pull(const N& alpha, const N& kappa) {
 /// The same with the derivatives of the groups.
 template <class T>
 T square_without_pull(const Groups<T>& groups) {
-  constexpr double most_kappa = 1e6;  // of which e is 1e-10
+  constexpr double most_kappa = 1e6;  // e is 1e-10 there
   const double alpha = value_of(groups.alpha);
   const double kappa = std::min(value_of(groups.kappa), most_kappa);
   if constexpr (std::is_same_v<T, double>) {
@@ -124,7 +116,7 @@ T base_square(const Groups<T>& groups, const ImpactResult& impact) {
   return square;
 }
 
-/// Calls act(mechanism, its own parameters) along the chain.
+/// Calls act(mechanism, its parameters) for every mechanism of the chain, from the outside in.
 template <class T, class Act>
 void along(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
   std::size_t first = 0;
@@ -145,7 +137,7 @@ void back_along(std::span<const Mechanism* const> chain, std::span<const T> own,
   }
 }
 
-/// The sphere at node `node` on its way in. Of several spreads the last is innermost.
+/// Changes the sphere of this node on its way in. Of several spreads the last is the innermost.
 template <class T>
 void approach(std::span<const Mechanism* const> chain, std::span<const T> own, std::size_t node,
               std::size_t nodes, Encounter<T>& e) {

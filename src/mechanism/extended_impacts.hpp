@@ -10,38 +10,38 @@
 
 namespace recoil {
 
-/// How a batch of impacts is answered: `simulate_impacts_fast`, or anything that agrees with it.
+/// A solver of a batch of impacts: `simulate_impacts_fast`, or one that agrees with it.
 using SimulateImpacts = long (*)(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                                  std::span<ImpactResult> results);
 
-/// One point: a sphere as the dataset has it.
+/// One point of a dataset.
 struct ExtendedPoint {
   const Surroundings* at = nullptr;
   double diameter = 0.0;                              ///< [m]
   double velocity = 0.0;                              ///< [m/s]
-  std::size_t series = static_cast<std::size_t>(-1);  ///< whose conditions hold; else the dataset's
+  std::size_t series = static_cast<std::size_t>(-1);  ///< it has the conditions; -1: the dataset
 };
 
-/// What a point shows with mechanisms at work.
+/// The result of a point with mechanisms.
 struct ExtendedAnswer {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;  ///< continued below zero for a capture
 };
 
 /// The base model with a chain of mechanisms at a fixed list of points. For one sphere:
-///   on the way in every mechanism of the chain changes what arrives (`before`), outermost first;
-///   the impact of the base model gives e_0^2, and v^2 = e_0^2 V^2 with V as it arrived;
-///   on the way out the chain in reverse order changes v^2 (`after`);
+///   on the way in, every mechanism of the chain changes the state (`before`), outermost first;
+///   the impact of the base model with the velocity V at the contact gives v^2 = e_0^2 V^2;
+///   on the way out, the chain in reverse order changes v^2 (`after`);
 ///   e^2 = v^2 / V_measured^2.
-/// Where spheres of one point differ (`vary`) this is done at nine of them, all in one batch, and
-/// the mean of the survivors is taken (several such mechanisms: on the product of their nodes, the
-/// last of the chain innermost). At last the chain changes what is seen (`observe`).
+/// If the spheres of one point differ (`vary`), this is done for nine of them, all in one batch,
+/// and the rebounds are averaged. Several such mechanisms use the product of their nodes, with the
+/// last one of the chain innermost. Finally the chain changes the average (`observe`).
 ///
-/// Derivatives are exact: those of the base impact come from the solver, those of the chain by dual
-/// numbers. Nothing is allocated after the first evaluation with and without them.
+/// Derivatives are exact: those of the base impact come from the solver, those of the chain from
+/// dual numbers. No memory is allocated after the first evaluation with and without derivatives.
 class ExtendedImpacts {
  public:
-  /// @param materials whether derivatives in the constants of the materials are wanted, too
+  /// @param materials also computes derivatives in the constants of the materials
   ExtendedImpacts(std::vector<const Mechanism*> chain, std::vector<ExtendedPoint> points,
                   bool materials = false);
   ~ExtendedImpacts();
@@ -53,13 +53,14 @@ class ExtendedImpacts {
 
   /// @param values [points x value_count()]
   /// @param options phase, gradient and tolerances; dashpot is set here
-  /// @return what `simulate` returned: how many impacts were handed over
+  /// @return the result of `simulate`: the number of impacts solved by the reference
   long evaluate(std::span<const double> values, ImpactOptions options, SimulateImpacts simulate);
 
   std::size_t size() const { return points_.size(); }
   const ExtendedAnswer& at(std::size_t i) const { return answers_[i]; }
-  /// d e^2 / d (V, D, values...) at point i, [2 + value_count()], and then with `materials` in the
-  /// density, K, W_A and the mobility of its Surroundings; after an evaluation with gradient.
+  /// d e^2 / d (V, D, values...) at point i, [2 + value_count()], after an evaluation with
+  /// gradient; with `materials` followed by those in density, K, W_A and mobility of its
+  /// Surroundings.
   std::span<const double> slopes(std::size_t i) const;
 
  private:
@@ -75,7 +76,7 @@ class ExtendedImpacts {
   void keep_slopes(std::size_t i, const T& square);
 
   std::vector<const Mechanism*> chain_;
-  std::vector<const Mechanism*> spreads_;  // those of the chain that make spheres of a point differ
+  std::vector<const Mechanism*> spreads_;  // mechanisms of the chain with `vary`
   std::vector<ExtendedPoint> points_;
   std::size_t own_count_ = 0;  // parameters of the mechanisms in the chain
   bool materials_ = false;
@@ -92,24 +93,24 @@ class ExtendedImpacts {
   std::unique_ptr<Workspace<ManyDirections>> many_;
 };
 
-/// One encounter with one sphere, for those who want to look: the conditions at the contact and the
-/// groups of the base impact there. @param values C_H, C_A, f0, then the parameters of the chain
+/// The state of one sphere at the contact, for display, and the groups of the base impact.
+/// @param values C_H, C_A, f0, then the parameters of the chain
 struct ContactView {
-  Encounter<double> encounter;  ///< as it arrives at the contact
+  Encounter<double> encounter;  ///< at the beginning of the contact
   ImpactGroups groups;
   ImpactScales scales;
 };
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values);
 
-/// Where the kinetic energy of one sphere goes, the middle one where spheres of a point differ [J].
-/// An error of the measurement counts as energy between what is read and what moves.
+/// The energy budget of one sphere [J], of the typical one if the spheres of a point differ. For an
+/// error of measurement it is the energy of the reading less the true energy.
 struct WholeImpactEnergy {
-  double incident = 0.0;   ///< m V^2 / 2 as measured
-  std::vector<double> in;  ///< what each mechanism of the chain takes on the way in; below 0: gives
-  double contact = 0.0;    ///< what the impact of the base model takes
-  std::vector<double> out;  ///< what each takes on the way out
-  double rebound = 0.0;     ///< what is left; below 0: what a captured sphere lacks
+  double incident = 0.0;    ///< m V^2 / 2 with the measured V
+  std::vector<double> in;   ///< loss by each mechanism of the chain on the way in; negative: gain
+  double contact = 0.0;     ///< loss in the impact of the base model
+  std::vector<double> out;  ///< loss by each mechanism on the way out
+  double rebound = 0.0;     ///< the remaining energy; negative: missing for a rebound
 };
 /// @param impact of the base model at the contact, see `view_contact`
 WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,

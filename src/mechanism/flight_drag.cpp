@@ -9,8 +9,8 @@ namespace {
 
 constexpr double no_drag_below = 10.0;  // [Pa]
 
-/// Drag of a sphere at the speed v over m g v, 3 rho_a C_d v / (4 rho d g) [s/m], as `AirFlight`
-/// has it.
+/// Drag of a sphere at the speed v divided by m g v, 3 rho_a C_d v / (4 rho d g) [s/m], with the
+/// C_d of `AirFlight`.
 template <class T>
 class Flight {
  public:
@@ -21,7 +21,7 @@ class Flight {
               (18.0 * air.viscosity() / (e.density * standard_gravity));
   }
   T drag(const T& speed) const {
-    constexpr double still = 1e-9;  // keeps slopes finite where there is no gas
+    constexpr double still = 1e-9;  // keeps slopes finite without gas
     const T re = reynolds_ * speed + still;
     const auto [over_stokes, slope] = sphere_drag(value_of(re));
     return stokes_ * compose(re, over_stokes, slope);
@@ -32,17 +32,17 @@ class Flight {
   T stokes_;    ///< [s/m]
 };
 
-/// v^2 after a fall from rest over the height `fall` / 2g, by steps in which the drag over v^2 is
-/// that of the middle: with k = drag / v, y = v^2 and u = 2 g h, y' = 1 - k y. Steps are even in
-/// h^(1/2), that is about even in time.
+/// v^2 after a fall from rest over the height `fall` / 2g. With k = drag / v, y = v^2 and u = 2 g
+/// h, y' = 1 - k y; a step uses the k of its middle. Steps are equal in h^(1/2), which is roughly
+/// equal in time.
 template <class T>
 T fallen(const Flight<T>& flight, const T& fall) {
   constexpr int steps = 40;
-  T y = fall * (1.0 / (steps * steps));  // the first step is one without drag ...
+  T y = fall * (1.0 / (steps * steps));  // the first step without drag
   {
     const T speed = sqrt(y * 0.5);
     const T k = flight.drag(speed) / speed;
-    y = -1.0 * exponential_less_one(-1.0 * k * y) / k;  // ... but for this
+    y = -1.0 * exponential_less_one(-1.0 * k * y) / k;  // the same with drag
   }
   for (int i = 1; i < steps; ++i) {
     const T step = fall * ((2.0 * i + 1.0) / (steps * steps));
@@ -83,8 +83,8 @@ struct FlightDrag {
     if (!(value_of(e.square) > 0.0)) return;
     e.square = risen(Flight<T>(e, own[0]), e.square);
   }
-  /// Without air nothing; with a trace of it (1 - v^2 / V^2) / 2 is the integral of the drag over
-  /// the fall, (1/3) drag V of a constant drag per speed.
+  /// The lost speed to first order in the pressure: (1 - v^2 / V^2) / 2 is the integral of the drag
+  /// over the fall, (1/3) drag V for a constant drag per speed.
   template <class T>
   static T lost_to_first_order(const Encounter<T>& e, std::span<const T> own, const T& v) {
     return Flight<T>(e, own[0]).drag(v) * v * v * (1.0 / 3.0);
@@ -124,13 +124,9 @@ Mechanism flight_drag() {
                                       const double v = sphere.velocity;
                                       return v * v / (2.0 * standard_gravity) / 20.0;
                                     }},
-                      // Flights through stated air may have been reduced already.
-                      .stated_by = {StatedBy{Condition::ambient_pressure,
-                                             [](double pressure, const Surroundings&,
-                                                const Conditions&) -> std::optional<double> {
-                                               if (pressure > no_drag_below) return std::nullopt;
-                                               return 0.0;
-                                             }}}}},
+                      // An import may have corrected flights through air of a stated pressure.
+                      .stated_by = {{.condition = Condition::ambient_pressure,
+                                     .zero_up_to = no_drag_below}}}},
       .methods = {Method::drop_heights, Method::bounce_intervals},
       .taken_away =
           TakenAway{Condition::ambient_pressure, no_drag_below, "pump the chamber to below 10 Pa"},

@@ -3,11 +3,11 @@
 namespace recoil {
 namespace {
 
-// Slip length of a gas on a wall that reflects diffusely, in free paths: 1 of Maxwell (1879), 1.146
-// of the kinetic equation (Cercignani, Rarefied Gas Dynamics).
+// Slip length of a gas on a wall with diffuse reflection, in free paths: 1 by Maxwell (1879), 1.146
+// by the kinetic equation (Cercignani, Rarefied Gas Dynamics).
 constexpr double slip_length = 1.15;
 
-/// sign(x) sqrt(|x|), rounded off where |x| < width^2.
+/// sign(x) sqrt(|x|), smoothed for |x| < width^2.
 template <class T>
 T signed_root(const T& x, const T& width) {
   const T w2 = width * width;
@@ -20,19 +20,19 @@ T signed_root(const T& x, const T& width) {
 /// It tends to ln x + 3/2 for a thick film.
 template <class T>
 T slip_film(const T& x) {
-  constexpr double least = 1e-9;  // keeps the slope finite where there is no gas
+  constexpr double least = 1e-9;  // keeps the slope finite without gas
   const T y = x + least;
   const T more = 1.0 + x;
   return more * more * logarithm_of_one_plus((1.0 - least) / y) - x + logarithm(y);
 }
 
-/// The loss on one way is the integral of the quasi-steady drag over the way, and does not depend
-/// on the velocity while Re is small:
+/// The loss on one way is the integral of the quasi-steady drag over the distance. It does not
+/// depend on the velocity if Re is small:
 ///   dv = (9 mu / (2 rho r)) (film + (L / r + (1/8) ln(1 + 10 L / r)) / C).
-/// The logarithm stands for what a wall adds to the drag beyond the film. Against the integral of
-/// the series of Brenner (1961) and Maude (1961) with Hocking's film in place of 1 / h and
-/// Cunningham's C, dv is good to 0.1 % for L > 5 r and to 2 % for any L from r / 10 on, for
-/// diameters from 2.6 um to 2 mm at 1 atm.
+/// The logarithm is the additional drag near a wall. Compared with the integral of the series of
+/// Brenner (1961) and Maude (1961), with Hocking's film instead of 1 / h and Cunningham's C, dv has
+/// an error of 0.1 % for L > 5 r and of 2 % for all L from r / 10 on, for diameters from 2.6 um to
+/// 2 mm at 1 atm.
 struct GasFilm {
   /// Speed lost on one way.
   template <class T>

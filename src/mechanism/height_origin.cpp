@@ -4,7 +4,7 @@
 namespace recoil {
 namespace {
 
-/// v^2 of a rebound that is the border between seen and not seen, over V^2.
+/// v^2 / V^2 of the slowest rebound that is read as one [1].
 constexpr double lowest_rebound = 0.01;
 
 struct HeightOrigin {
@@ -19,7 +19,7 @@ struct HeightOrigin {
     const T fall = e.velocity * e.velocity - less;
     e.velocity = sqrt(value_of(less) == 0.0 ? fall : positive_part(fall, 0.05 * less));
   }
-  /// What stays on the surface is not read as a rebound of the height delta.
+  /// A sphere that stays on the surface is not read as a rebound to the height delta.
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const T least = lowest_rebound * e.measured_velocity * e.measured_velocity;

@@ -3,8 +3,8 @@
 namespace recoil {
 namespace {
 
-/// Work to part a JKR contact from zero approach to its tear at fixed grips, in units of
-/// (W^5 R^4 / E*^2)^(1/3): the integral of the JKR curve; Thornton & Ning (1998) print 7.09.
+/// Work to separate a JKR contact from zero approach to its instability at fixed grips, in units of
+/// (W^5 R^4 / E*^2)^(1/3): the integral of the JKR curve. Thornton & Ning (1998) print 7.09.
 constexpr double parting_work = 7.092195971863959;
 
 /// mu = (R W^2 / (E*^2 z0^3))^(1/3).

@@ -15,8 +15,8 @@
 
 namespace recoil {
 
-/// What a mechanism is a statement about. A description fits and explains nothing: it is never
-/// named as a cause.
+/// The subject of a mechanism: the impact, or its measurement. A description only fits the data and
+/// is never named as a cause.
 enum class MechanismKind { physics, measurement, description };
 
 template <>
@@ -25,81 +25,80 @@ struct NamesOf<MechanismKind> {
                                                             "description"};
 };
 
-/// Where on the way of a sphere a mechanism acts, from the outside in. On the way in mechanisms act
-/// in this order, on the way out in the reverse one; those at the same place in the order of their
-/// ids. The last three act on what a point shows, in this order.
+/// The place on the way of a sphere where a mechanism acts, from the outside in. On the way in,
+/// mechanisms act in this order, on the way out in the reverse order, and those at one place in the
+/// order of their ids. The last three act, in this order, on the average of a point.
 enum class MechanismPlace {
-  size,        ///< which sphere it is
-  spread,      ///< how the spheres of one point differ
-  instrument,  ///< what the velocimeter reads
+  size,        ///< the size of the sphere
+  spread,      ///< differences between the spheres of one point
+  instrument,  ///< errors of the velocimeter
   height,      ///< between the measuring plane and the surface
   gas,
   field,
   contact,
-  selection,  ///< which rebounds are seen
+  selection,  ///< which rebounds are detected
   pairing,    ///< which rebound belongs to which impact
-  batch,      ///< what all points of a series share
+  batch,      ///< an error that all points of a series share
 };
 
-/// A change of a condition under which a mechanism does nothing.
+/// A value of a condition at which a mechanism has no effect.
 struct TakenAway {
   Condition condition = Condition::ambient_pressure;
   double value = 0.0;      ///< in the unit of the condition
-  std::string_view doing;  ///< in a laboratory: "pump the chamber"
-  /// The least value that does it for one impact, where that depends on the impact; `value` is then
-  /// an example. Null: `value` always does.
+  std::string_view doing;  ///< how to set it in a laboratory: "pump the chamber"
+  /// The least sufficient value for one impact, if it depends on the impact; `value` is then an
+  /// example. Null: `value` is always sufficient.
   double (*least)(const Encounter<double>& sphere) = nullptr;
 };
 
-/// An entry states what differs from the defaults.
+/// The description of a mechanism.
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
-  /// By which `[model] loss` of a fit file knows it: the loss of a dry contact, which captures
-  /// nothing by itself. Empty: it is no such law.
+  /// Its name in `[model] loss` of a fit file, if it is a loss of the dry contact. Such a loss does
+  /// not capture by itself. Empty: it is none.
   std::string_view dry_loss = {};
-  std::string_view cause = {};  ///< shared with other laws of the same; empty where it stands alone
+  std::string_view cause = {};  ///< a cause that several mechanisms describe; empty: only this one
   MechanismKind kind = MechanismKind::physics;
   MechanismPlace place = MechanismPlace::contact;
   bool needs_flat = false;  ///< its law does not hold between two spheres
   std::string_view formula;
   std::string_view source;
-  std::string_view
-      fingerprint;  ///< what it leaves in the data when the base model is fitted without it
+  std::string_view fingerprint;  ///< its pattern in the residuals of a fit without it
   std::vector<Parameter> parameters = {};
-  /// Does it say that the spheres of one point differ in size?
+  /// True if it states that the spheres of one point differ in size.
   bool mixes_sizes = false;
-  /// Is its strength a multiple of the dataset's own work of adhesion? Where that is 0 it does
-  /// nothing.
+  /// True if its strength is a multiple of the dataset's work of adhesion, so that it has no effect
+  /// if that is 0.
   bool needs_adhesion = false;
-  bool needs_flow = false;  ///< a body has to flow: nothing happens to an elastomer
-  /// The ways of measuring that can have it; empty: all.
+  bool needs_flow = false;  ///< it has no effect if a body is an elastomer, which does not yield
+  /// The methods of measurement in which it can occur; empty: all.
   std::vector<Method> methods = {};
-  std::optional<TakenAway> taken_away = {};  ///< by what, where a condition does it
-  /// Why it makes no sense beside a law of adhesion; empty when it does. Null: beside none it is
-  /// refused.
+  std::optional<TakenAway> taken_away = {};  ///< the condition that removes it, if there is one
+  /// The reason why it cannot be combined with a law of adhesion; empty if it can. Null: it can be
+  /// combined with all laws.
   std::string_view (*refused)(AdhesionLaw law) = nullptr;
 };
 
-/// The law of a mechanism for one number type; null where it does nothing. `own` holds its
+/// The law of a mechanism for one number type. A null function has no effect. `own` are its
 /// parameters in the order of `MechanismInfo::parameters`.
 template <class T>
 struct MechanismLaw {
   void (*before)(Encounter<T>&, std::span<const T> own) = nullptr;  ///< on the way in
   void (*after)(Encounter<T>&, std::span<const T> own) = nullptr;   ///< on the way out
   void (*observe)(Observed<T>&, std::span<const T> own) = nullptr;
-  /// The sphere that lies z standard deviations from the typical one of its point.
+  /// Changes the sphere to one that differs from the typical one by z standard deviations.
   void (*vary)(Encounter<T>&, std::span<const T> own, double z) = nullptr;
 };
 
-/// Directions that a dual number carries: V, D, C_H, C_A, f0, then the mechanisms' parameters.
+/// Directions of the derivatives: V, D, C_H, C_A, f0, and then the mechanisms' parameters.
 inline constexpr std::size_t base_directions = 5;
-/// And where the materials are uncertain, last of all: density, K, W_A and mobility.
+/// Further directions, last of all, if the materials are uncertain: density, K, W_A and mobility.
 inline constexpr std::size_t material_directions = 4;
-// How many parameters of mechanisms fit in, without and beside uncertain materials:
-using FewDirections = Dual<8>;       ///< three; none
-using SomeDirections = Dual<12>;     ///< seven; three: one mechanism
-using SeveralDirections = Dual<16>;  ///< eleven; seven: two or three mechanisms
+// The numbers of mechanisms' parameters, without and with uncertain materials:
+using FewDirections = Dual<8>;       ///< 3; 0
+using SomeDirections = Dual<12>;     ///< 7; 3: one mechanism
+using SeveralDirections = Dual<16>;  ///< 11; 7: two or three mechanisms
 using ManyDirections = Dual<48>;     ///< more than the whole catalogue has
 
 struct Mechanism {
@@ -107,7 +106,7 @@ struct Mechanism {
   std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
              MechanismLaw<SeveralDirections>, MechanismLaw<ManyDirections>>
       laws;
-  bool dashpot = false;  ///< sets Encounter::relaxation: refused where the law has no dashpot
+  bool dashpot = false;  ///< it sets Encounter::relaxation, which needs a law with a dashpot
 
   template <class T>
   const MechanismLaw<T>& law() const {
@@ -119,13 +118,13 @@ struct Mechanism {
     if (info.needs_flow && at.elastomer) return false;
     return at.method == Method::unknown || can_be_of(at.method);
   }
-  /// Can velocities that were measured so have it?
+  /// True if it can occur in velocities that were measured by this method.
   bool can_be_of(Method method) const {
     return info.methods.empty() ||
            std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
   }
   bool spreads() const { return law<double>().vary != nullptr; }
-  /// Why it cannot stand beside this law of adhesion; empty when it can.
+  /// The reason why it cannot be combined with this law of adhesion; empty if it can.
   std::string_view refusal(AdhesionLaw adhesion) const {
     if (dashpot && !traits(adhesion).has_dashpot) {
       return "its force does not vanish where that contact separates, and no solution for this is "
@@ -160,10 +159,10 @@ MechanismLaw<T> law_for() {
 
 }  // namespace mechanism_detail
 
-/// `Law` has any of the functions of MechanismLaw as static templates over the number type. Each
-/// mechanism is one file, named like its id, which defines a function of that name that returns
-/// make_mechanism<Law>(...), and its line in CMakeLists.txt. Nothing else knows it: whatever is
-/// special about a mechanism is a field of its entry.
+/// Makes a mechanism from a `Law`, which has any of the functions of MechanismLaw as static
+/// templates over the number type. Each mechanism has one file, named like its id, and a line in
+/// CMakeLists.txt. The file defines a function of that name that returns make_mechanism<Law>(...).
+/// No other code depends on the mechanism: its properties are fields of MechanismInfo.
 template <class Law>
 Mechanism make_mechanism(MechanismInfo info) {
   Mechanism m;
@@ -177,8 +176,8 @@ Mechanism make_mechanism(MechanismInfo info) {
   return m;
 }
 
-/// A force that draws the sphere on before it touches: what it gains on the way in it pays back on
-/// the way out. `Well::gained(e, own)` is 2 U / m, U the energy of the well [m2/s2].
+/// An attractive force before the contact: the sphere gains the energy U on the way in and loses it
+/// on the way out. `Well::gained(e, own)` is 2 U / m [m2/s2].
 template <class Well>
 struct Attraction {
   template <class T>
@@ -194,29 +193,25 @@ struct Attraction {
 /// Every mechanism, in the order in which they act.
 const std::vector<Mechanism>& mechanism_catalogue();
 
-/// The mechanism `id`; null when there is none.
+/// The mechanism `id`; null if there is none.
 const Mechanism* find_mechanism(std::string_view id);
 
 /// The mechanisms `ids`, in the order in which they act. @pre all of them exist
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids);
 
-/// The values of one parameter that matter, or a careful experiment, can have in given impacts.
+/// The physically possible values of one parameter in given impacts.
 struct AllowedValues {
   double lower = 0.0;  ///< in the parameter's unit
   double upper = 0.0;
-  bool lower_by_limit = false;  ///< set by `Parameter::limit`, not by `Parameter::plausible`
+  bool lower_by_limit = false;  ///< from `Parameter::limit`, not from `Parameter::plausible`
   bool upper_by_limit = false;
-  double quantity = 0.0;  ///< that is limited, at the value in `own` [1]; 0 where nothing is
+  double quantity = 0.0;  ///< the limited quantity at the value in `own` [1]; 0: no limit
 };
 
-/// `parameter.plausible`, narrowed to where the largest value that its limit's quantity takes among
-/// `spheres` lies within the limit. Where no value does, lower equals upper.
-/// @param k the place of `parameter` among `own`, the parameters of its mechanism
+/// The range `parameter.plausible`, narrowed so that the largest quantity of the parameter's limit
+/// among `spheres` is within the limit. If there is no such value, lower equals upper.
+/// @param k the index of `parameter` in `own`, the parameters of its mechanism
 AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::span<const double> own,
                              std::span<const Encounter<double>> spheres);
-
-/// A sphere that arrives as the dataset has it, with the adhesion and damping left out.
-Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity,
-                               std::size_t series);
 
 }  // namespace recoil

@@ -9,17 +9,17 @@
 
 namespace recoil {
 
-/// At how many spheres the mean over the spheres of a point is sampled, and how far out: the nodes
-/// lie at z from -spread_reach to spread_reach (`spread_positions`).
+/// The number of nodes for the mean over the spheres of a point, and their range: z from
+/// -spread_reach to spread_reach (`spread_positions`).
 inline constexpr std::size_t spread_nodes = 9;
 inline constexpr double spread_reach = 2.5;
 
-/// Part of a size distribution in which diameters are spread evenly; z is linear in ln d.
+/// Part of a size distribution with a uniform density of diameters; z is linear in ln d.
 struct SizePiece {
-  double from = 0.0;  ///< z of its smallest and
-  double to = 0.0;    ///< of its largest diameter; the same for a single diameter
+  double from = 0.0;  ///< z of its smallest diameter
+  double to = 0.0;    ///< z of its largest diameter; equal to `from` for a single diameter
   double weight = 0.0;
-  /// A quadrature over it: the weights of the answers at the nodes in that of each of its spheres.
+  /// A sphere of a quadrature over the piece, and the weights that interpolate it from the nodes.
   struct Sphere {
     double weight = 0.0;
     std::array<double, spread_nodes> of_node{};
@@ -27,20 +27,21 @@ struct SizePiece {
   std::vector<Sphere> spheres;
 };
 
-/// The sizes over which every point of a dataset averages, whatever their distribution. The sphere
-/// at z has the diameter d = mean exp(s shape(z)).
+/// The distribution of sizes over which every point of a dataset averages. The sphere at z has the
+/// diameter d = mean exp(s shape(z)).
 struct MixedSizes {
-  double spread = 0.0;                       ///< s, standard deviation of ln d [1]; 0: all alike
+  double spread = 0.0;                       ///< s, standard deviation of ln d [1]; 0: equal sizes
   std::array<double, spread_nodes> shape{};  ///< of the sphere at each node [1]
   double rate = 0.0;                         ///< d ln d / d z at the stated sizes [1]
   std::shared_ptr<const std::vector<SizePiece>> pieces;
-  double slowest_seen = 0.0;  ///< rebounds below it are not seen [m/s]
+  double slowest_seen = 0.0;  ///< slower rebounds are not detected [m/s]
 
   bool mixed() const { return spread > 0.0; }
 };
 
-/// Spheres spread evenly within each bin; the nodes span all of them. Where the height h of the
-/// measuring plane is stated, a rebound slower than (2 g h)^(1/2) at the surface does not reach it.
+/// The distribution with a uniform density within each bin. The nodes span all bins. If the height
+/// h of the measuring plane is stated, rebounds slower than (2 g h)^(1/2) at the surface do not
+/// reach it.
 MixedSizes mixed_sizes_of(const MeasuredSizes& sizes);
 
 }  // namespace recoil

@@ -9,7 +9,7 @@
 namespace recoil {
 namespace {
 
-// The slopes of a number: in the groups, in their order, and in the deepest point.
+// The slopes of a `Sloped` number: in the groups, in their order, and in the deepest point.
 constexpr std::size_t by_deepest = OpeningGroups::count;
 constexpr std::size_t by_returned = by_deepest - 1;
 using Sloped = Dual<by_deepest + 1>;
@@ -19,7 +19,7 @@ double potential(double x, double beta) { return x * std::sqrt(x) * (0.4 * x - 2
 double potential_by_place(double x, double beta) { return std::sqrt(x) * (x - beta); }
 double potential_by_beta(double x) { return -2.0 / 3.0 * x * std::sqrt(x); }
 
-/// What a node is in: x = X cos^4(pi s / 2).
+/// A node of the quadrature in s, with x = X cos^4(pi s / 2).
 struct Node {
   double part;     ///< x / X
   double stretch;  ///< |dx / ds| / X
@@ -49,10 +49,10 @@ struct Phase {
   bool gamma_acts;
   double deepest;
   bool opens = false;     ///< the opening takes energy, too
-  Sloped elsewhere = {};  ///< energy that is lost evenly in x
+  Sloped elsewhere = {};  ///< other losses, distributed evenly in x
   double bottom = potential(deepest, g.beta);
 
-  /// The energy lost per s where `lost` is what was lost since the deepest point.
+  /// The energy lost per s, if `lost` was lost since the deepest point.
   RateOfLoss rate(const Node& node, double lost, Sloped* sloped = nullptr) const {
     const auto [part, stretch] = node;
     const double x = deepest * part;
@@ -63,7 +63,7 @@ struct Phase {
     const double root = std::sqrt(x);
     const double square =
         2.0 * (bottom - x * root * (0.4 * x - 2.0 / 3.0 * g.beta) + direction * lost);
-    // A captured sphere stops, and then nothing opens: u^2 is rounded off over this width.
+    // A captured sphere stops, and the opening with it: u^2 is smoothed over this width.
     constexpr double width = 1e-4;
     const double hypotenuse = std::sqrt(square * square + width * width);
     const double seen =
@@ -92,7 +92,7 @@ struct Phase {
     return {(damping + opening) * dx + elsewhere.value * stretch, 2.0 * direction * by_square};
   }
 
-  /// The energy lost on the whole way.
+  /// The energy lost in the whole phase.
   template <class N, int steps>
   N loss() const {
     const auto& nodes = nodes_of<steps>();
@@ -111,7 +111,7 @@ constexpr int out_steps = 8;
 
 /// The deepest point X: 1/2 = U(X) + the loss on the way in. Newton's method.
 Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
-  // Without damping first. From above, where U is convex, no step overshoots.
+  // First without damping. U is convex above the root, so that no step overshoots from there.
   double deepest = std::pow(1.25, 0.4) + 5.0 / 3.0 * g.beta;
   for (double change = deepest; change > 1e-6 * deepest; deepest -= change) {
     change = (potential(deepest, g.beta) - 0.5) / potential_by_place(deepest, g.beta);
@@ -121,7 +121,8 @@ Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
     const double by_place = potential_by_place(deepest, g.beta) + lost.slope[by_deepest];
     const double change = (potential(deepest, g.beta) + lost.value - 0.5) / by_place;
     deepest = std::max(deepest - change, 0.1 * deepest);
-    if (std::abs(change) > 1e-6 * deepest && step < 8) continue;  // which squares the error
+    // The error after a step is of the order of its square.
+    if (std::abs(change) > 1e-6 * deepest && step < 8) continue;
     Sloped found = (-1.0 / by_place) * lost;
     found.value = deepest;
     found.slope[1] -= potential_by_beta(deepest) / by_place;

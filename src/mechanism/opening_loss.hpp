@@ -7,8 +7,8 @@
 
 namespace recoil {
 
-/// An impact under the ring law whose contact costs a work per area to open. With x = n / n_c and
-/// energies in m V^2, and the dampings of `ImpactGroups`:
+/// The groups of an impact under the ring law in which the opening of the contact takes a work per
+/// area. With x = n / n_c, energies in m V^2, and the dampings of `ImpactGroups`:
 ///   in:  d(energy) = (alpha x^(3/2) + kappa x^(1/2)) u dx
 ///   out: the same, and beta gamma x^(1/2) u dx + strength (u x^(-1/2))^exponent dx.
 struct OpeningGroups {
@@ -18,23 +18,24 @@ struct OpeningGroups {
   /// pi R w n_c / (m V^2) times (crack velocity / u x^(-1/2))^exponent, w at a crack velocity of 1.
   double strength = 0.0;
   double exponent = 0.0;
-  double returned = 0.0;  ///< (v / V)^2 on the way out that all but the opening leaves
+  double returned = 0.0;  ///< (v / V)^2 on the way out without the opening
 };
 
 struct OpeningLoss {
-  double square = 0.0;                                   ///< what the opening takes of (v / V)^2
+  double square = 0.0;                                   ///< loss of (v / V)^2 by the opening
   std::array<double, OpeningGroups::count> slopes = {};  ///< in the groups, in their order
 };
 
-/// The opening and the dampings act on the speed that they leave. What else was lost, known from
-/// `returned`, is spread evenly over the way out. Solved by Radau IIA (order 5) from the deepest
-/// point; e^2 has an error below 2e-5 for crack factors of 0.05 to 2 (against DOP853).
-/// @param damps_both whether gamma acts on the way in, too
-/// @param slopes whether the slopes are wanted; they are zero otherwise
+/// The loss by the opening of the contact. Opening and dampings depend on the speed, which they
+/// reduce. The other losses follow from `returned`, and are distributed evenly over the way out.
+/// Solved by Radau IIA (order 5) from the deepest point. The error of e^2 is below 2e-5 for crack
+/// factors of 0.05 to 2 (compared with DOP853).
+/// @param damps_both gamma acts on the way in, too
+/// @param slopes computes the slopes, which are zero otherwise
 OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both, bool slopes = true);
 
-/// The energy [J] that the opening of a contact under the ring law takes, at a work of separation
-/// of w v_c^k [J/m2] beyond that of the base model, v_c = |a'| in m/s.
+/// The energy [J] lost by the opening of a contact under the ring law, with a work of separation of
+/// w v_c^k [J/m2] in addition to that of the base model, v_c = |a'| in m/s.
 template <class T>
 T opening_energy(const Encounter<T>& e, const T& work, const T& exponent) {
   const T speed = e.velocity;

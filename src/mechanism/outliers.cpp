@@ -3,11 +3,11 @@
 namespace recoil {
 namespace {
 
-/// e of the border between seen and not seen.
+/// e of the slowest rebound that is detected [1].
 constexpr double least_restitution = 0.1;
 
 struct Outliers {
-  /// ((1 - q) e + q / 2)^2 for what is seen.
+  /// ((1 - q) e + q / 2)^2 for detected rebounds.
   template <class T>
   static void observe(Observed<T>& s, std::span<const T> own) {
     const T right = 1.0 - own[0];

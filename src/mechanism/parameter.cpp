@@ -10,10 +10,10 @@
 namespace recoil {
 
 const std::vector<Parameter>& base_parameters(AdhesionLaw law) {
-  // Starts: C_H V = 0.03 costs 1 - e = 2/3 C_H V = 0.02 at 10 m/s, and this C_A makes the model
-  // capture ammonium fluorescein of 4.9 um below about 1 m/s, both near what Wall et al. (1990)
-  // saw. f0 starts at eq. 12 of its dataset unless the fit says otherwise; its number here is only
-  // the magnitude of Table 1 of Li, Dunn & Brach (1999).
+  // Initial values: C_H V = 0.03 at 10 m/s gives 1 - e = (2/3) C_H V = 0.02, and this C_A gives a
+  // capture velocity of about 1 m/s for ammonium fluorescein of 4.9 um; both are near the results
+  // of Wall et al. (1990). A fit starts with f0 from eq. 12 unless it states another value; the
+  // number here is the magnitude of Table 1 of Li, Dunn & Brach (1999).
   static const std::vector<Parameter> all = {
       {.name = "C_H",
        .unit = "s/m",
@@ -107,7 +107,12 @@ std::optional<StatedValue> stated_value(const Parameter& parameter, const Surrou
   for (const StatedBy& by : parameter.stated_by) {
     const auto condition = conditions.of(by.condition);
     if (!condition) continue;
-    const auto value = by.value == nullptr ? condition : by.value(*condition, at, conditions);
+    std::optional<double> value = condition;
+    if (by.zero_up_to) {
+      value = *condition <= *by.zero_up_to ? std::optional(0.0) : std::nullopt;
+    } else if (by.value != nullptr) {
+      value = by.value(*condition, at, conditions);
+    }
     if (value)
       return StatedValue{std::clamp(*value, parameter.lower, parameter.upper), by.condition};
   }
@@ -132,11 +137,11 @@ std::vector<const Parameter*> parameters_with(const std::vector<std::string>& id
 
 namespace {
 
-/// Where `rises`, false at `lower` and true at `upper`, changes: halving down to neighbouring
-/// numbers, in a range that may span eighteen decades.
+/// The place where `rises` changes from false at `lower` to true at `upper`, by bisection down to
+/// neighbouring numbers, in a range that may span eighteen decades.
 template <class Rises>
 double change(const Rises& rises, double lower, double upper) {
-  constexpr int halvings = 1100;  // more than the exponents of double have
+  constexpr int halvings = 1100;  // more than the exponents of a double
   for (int i = 0; i < halvings; ++i) {
     const double middle = lower + 0.5 * (upper - lower);
     if (middle <= lower || middle >= upper) break;
@@ -155,19 +160,6 @@ double largest_of(const PlausibleLimit& limit, std::span<const double> own,
 }
 
 }  // namespace
-
-Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity,
-                               std::size_t series) {
-  Encounter<double> e{};
-  e.at = &at;
-  e.series = series;
-  e.take_materials();
-  e.measured_velocity = velocity;
-  e.diameter = diameter;
-  e.contact_radius = e.radius();
-  e.velocity = velocity;
-  return e;
-}
 
 AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::span<const double> own,
                              std::span<const Encounter<double>> spheres) {

@@ -4,32 +4,31 @@
 namespace recoil {
 namespace {
 
-/// Where p_Y is stated when the rate of straining raises it; the velocity is 1 m/s.
+/// The diameter at which p_Y is stated if it depends on the strain rate; the velocity is 1 m/s.
 constexpr double rate_diameter = 10e-6;  // [m]
 
-/// What a sphere has to come back with, as a part of its energy on arrival, to be followed through
-/// the base impact; below, it is captured anyway.
+/// The least recovered share of the incident energy with which the base impact is simulated. With
+/// less the sphere is captured anyway.
 constexpr double least_recovered = 0.01;
 
-/// Where the finite deformation of the sphere counts, (V_t)^2 p / rho with V_t of `plastic_yield`'s
-/// formula: where e = 2.08 (V / V_y)^(-1/4) and e = 0.62 (V Y / (V_y E*))^(-1/2) of Wu, Li &
-/// Thornton (2003) meet, V = 0.0079 (E* / Y)^2 V_y, their V_y that of Johnson for 1.6 Y. Their
-/// first law is Thornton & Ning's limit 1.185 (V_Y / V)^(1/4) for p = 3.94 Y.
+/// The onset of finite deformation, V_t^2 rho / p with the V_t of the formula of `plastic_yield`.
+/// There the two laws of Wu, Li & Thornton (2003) intersect, e = 2.08 (V / V_y)^(-1/4) and e = 0.62
+/// (V Y / (V_y E*))^(-1/2): V = 0.0079 (E* / Y)^2 V_y, where V_y is Johnson's for 1.6 Y. The first
+/// law is Thornton & Ning's limit 1.185 (V_Y / V)^(1/4) for p = 3.94 Y.
 constexpr double finite_deformation = 4.03e-4;
 
-/// Elastic-perfectly plastic contact with the adhesion of the base model at work in it, see
-/// `adhesive_yield`. The rate of straining in a Hertz contact is (a / r) / t_c ~ V^(3/5) / d; where
-/// it raises the yield pressure as its power 5q/3,
+/// Elastic-perfectly plastic contact with the adhesion of the base model, see `adhesive_yield`. The
+/// strain rate in a Hertz contact is (a / r) / t_c ~ V^(3/5) / d. If the yield pressure increases
+/// with its power 5q/3,
 ///   p = p_Y (V / (1 m/s))^q (d / (10 um))^(-5q/3).
-/// The work of adhesion W is the one whose JKR contact rests at the radius at which the ring's
-/// force f0 holds the sphere (eq. 9 and 10 of Li, Dunn & Brach 1999), times s.
+/// The work of adhesion is s times the W that corresponds to the f0 of the ring law (eqs 9 and 10
+/// of Li, Dunn & Brach 1999).
 ///
-/// What the contact gives back on its way from the turning point to zero approach is what an
-/// elastic impact of a sphere with the curvature R_p and the same mass would give back; the ring's
-/// adhesion, damping and the other losses act on that one. Of the adhesion only what it does to the
-/// flow of the material is counted here. Its well is the ring's, which is paid back; what a JKR
-/// contact loses as it parts is `jkr_hysteresis`, on the radius R_p. Both together are the full law
-/// of Thornton & Ning, and neither has a part of the other.
+/// The energy recovered between turning point and zero approach is assigned to an elastic impact of
+/// a sphere with the curvature R_p and the same mass. Adhesion and damping of the ring law and the
+/// other losses act on this impact. Of the adhesion, this mechanism includes only the effect on the
+/// yielding. The work of separation of a JKR contact is `jkr_hysteresis`, with the radius R_p. Both
+/// together are the full law of Thornton & Ning, without overlap.
 struct PlasticYield {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
@@ -61,8 +60,8 @@ struct PlasticYield {
 
     const T past = own[3] * own[3] * speed * e.density / (finite_deformation * pressure);
     const T back = recovered / energy * speed / power(1.0 + past, 0.25);
-    // A sphere that does not come back to zero approach lacks energy: it is captured, from a base
-    // impact that is slow enough to count for nothing.
+    // A sphere that does not come back to zero approach is captured. Its base impact is so slow
+    // that it does not matter.
     const T least = least_recovered * speed;
     const T enters = value_of(back) < value_of(least) ? least * least / (2.0 * least - back) : back;
     e.square += back - enters;

@@ -7,8 +7,8 @@
 namespace recoil {
 namespace {
 
-/// ln(d / mean) of the sphere at z for a standard deviation s: of the sizes that the dataset
-/// states, else lognormal and cut off.
+/// ln(d / mean) of the sphere at z for a standard deviation s, with the distribution that the
+/// dataset states, or else a truncated lognormal one.
 template <class T>
 T logarithm_at(const MixedSizes& sizes, const T& s, double z) {
   if (!sizes.mixed()) return s * (cut_scale() * z) - cut_lognormal_mean(s);

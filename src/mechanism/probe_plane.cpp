@@ -36,13 +36,8 @@ Mechanism probe_plane() {
                       .upper = 1e-1,
                       .plausible = {-2e-3, 5e-3, "beams are within a few mm of the surface"},
                       .starts = {1e-3, -1e-4},
-                      // A height above 0 may have been corrected for.
-                      .stated_by = {StatedBy{Condition::probe_height,
-                                             [](double height, const Surroundings&,
-                                                const Conditions&) -> std::optional<double> {
-                                               if (height > 0.0) return std::nullopt;
-                                               return 0.0;
-                                             }}}}},
+                      // The data may have been corrected for a height above 0.
+                      .stated_by = {{.condition = Condition::probe_height, .zero_up_to = 0.0}}}},
       .methods = {Method::velocimeter},
       .taken_away = TakenAway{Condition::probe_height, 0.0,
                               "measure at the height of the surface, or correct for the fall from "

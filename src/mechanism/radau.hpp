@@ -9,12 +9,12 @@
 
 namespace recoil {
 
-/// A rate with its slope in what is integrated.
+/// A rate and its derivative by the integrated quantity.
 struct RateOfLoss {
   double value, slope;
 };
 
-/// The place s of a node: there are three in each step.
+/// The place s of a node. Each step has three.
 inline double radau_place(int node, int steps) {
   const double root = std::sqrt(6.0);
   const double within = node % 3 == 0   ? 0.1 * (4.0 - root)
@@ -25,11 +25,10 @@ inline double radau_place(int node, int steps) {
 }
 
 /// y(1) of dy/ds = rate(s, y), y(0) = 0, by Radau IIA of order 5 (Hairer & Wanner 1996, Solving
-/// Ordinary Differential Equations II, table 5.6) in equal steps. It is L-stable: a loss that makes
-/// a sphere creep is stiff.
+/// Ordinary Differential Equations II, table 5.6) in equal steps. The method is L-stable, because
+/// strong losses make the problem stiff.
 /// @param rate (node, y) -> RateOfLoss, at s = radau_place(node, steps)
-/// @param sloped (node, y) -> T, the rate with its slopes at a fixed y; not called where T is
-/// double
+/// @param sloped (node, y) -> T, the rate with its slopes at a fixed y; not called if T is double
 template <class T, int steps, class Rate, class Sloped>
 T integrate_loss(const Rate& rate, const Sloped& sloped) {
   using Stages = Eigen::Vector3d;
@@ -55,7 +54,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
       last_rate = rates(2);
       return Stages(trial - Stages::Constant(value_of(lost)) - couplings * rates);
     };
-    // Starts at the last rate.
+    // Starts with the last rate.
     Stages at;
     for (int j = 0; j < 3; ++j) {
       at(j) = value_of(lost) + radau_place(j, steps) * last_rate;
@@ -67,7 +66,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
       inverse = (Eigen::Matrix3d::Identity() - couplings * slopes.asDiagonal()).inverse();
       Stages change = inverse * miss;
       done = change.cwiseAbs().maxCoeff() < 1e-6;  // the next one is of the order of its square
-      // Half as far as long as it leads away.
+      // Halves the step while the error grows.
       Stages next = miss_at(at - change);
       for (int half = 0; half < 12 && !done && !(next.squaredNorm() < miss.squaredNorm()); ++half) {
         change *= 0.5;

@@ -3,7 +3,7 @@
 namespace recoil {
 namespace {
 
-/// A point of which less than this part would be seen shows nothing and is not measured.
+/// A point with a smaller share of detected rebounds is not measured [1].
 constexpr double fewest_seen = 1e-3;
 constexpr double none_seen = 1e-12;
 

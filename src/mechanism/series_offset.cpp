@@ -3,7 +3,7 @@
 namespace recoil {
 namespace {
 
-/// e of the border between seen and not seen.
+/// e of the slowest rebound that is detected [1].
 constexpr double lowest_seen = 0.1;
 
 struct SeriesOffset {

@@ -12,7 +12,7 @@ namespace {
 
 using Weights = std::array<double, spread_nodes>;
 
-/// Lagrange polynomials at z and their derivatives, by the product formula: nine nodes are few.
+/// Lagrange polynomials at z and their derivatives, by the product formula.
 struct Basis {
   Weights value{};
   Weights slope{};
@@ -63,7 +63,7 @@ const Quadrature& quadrature() {
 
 template <class T>
 T combine(const Weights& of_node, std::span<const T> x) {
-  // Relative to the typical sphere: exact when all are alike.
+  // Relative to the typical sphere, which is exact if all spheres are equal.
   const T& middle = x[spread_nodes / 2];
   T sum = middle;
   for (std::size_t k = 0; k < spread_nodes; ++k) sum += of_node[k] * (x[k] - middle);
@@ -80,13 +80,13 @@ double slope_at(const Basis& basis, std::span<const T> x) {
   return sum;
 }
 
-/// Where the interpolated e^2 passes through `seen`, which lies between its ends.
+/// The z at which the interpolated e^2 is `seen`, which lies between the values at both ends.
 template <class T>
 T crossing(std::span<const T> x, const T& seen) {
   double inside =
       value_of(x.front()) > value_of(x.back()) ? -spread_reach : spread_reach;  // comes back
   double outside = -inside;
-  // Halving by hand: inside the innermost loop of a fit, with all that is needed at hand.
+  // No call of find_root, because this is the innermost loop of a fit.
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (inside + outside);
     const Basis basis = basis_at(middle);
@@ -101,10 +101,11 @@ T crossing(std::span<const T> x, const T& seen) {
   return z;
 }
 
-/// e^2 where even the last sphere is captured, or not seen. With D = its distance to the other end,
-/// the slope is at first 4/9 (the mean of sqrt(t) over a short interval is 2/3 of its largest
-/// value), or 1/2 where it begins above zero (the square root hardly bends over a short interval),
-/// and 1 far below, or when all are alike.
+/// The continuation of e^2 if no sphere rebounds, or no rebound is detected. `last` belongs to the
+/// sphere that rebounds most easily, `other` to the opposite end. The slope begins with 4/9 (the
+/// mean of sqrt(t) over a short interval from 0 is 2/3 of its largest value), or with 1/2 if `seen`
+/// is above zero (the square root is nearly linear over a short interval). It is 1 far below, and
+/// if all spheres are equal.
 template <class T>
 T beyond_the_last(const T& last, const T& other, const T& seen) {
   const T depth = seen - last;
@@ -114,7 +115,7 @@ T beyond_the_last(const T& last, const T& other, const T& seen) {
   return seen - depth * ((at_first * width + depth) / (width + depth));
 }
 
-/// The mean e of what is seen, as it is added up.
+/// Accumulates the mean e of the detected rebounds.
 template <class T>
 class SeenMean {
  public:
@@ -123,7 +124,7 @@ class SeenMean {
     total_ += weight * sqrt(square);
     weights_ += weight;
   }
-  /// @param single what it is where hardly anything is seen
+  /// @param single the result if the weights vanish
   T square(const T& single) const {
     if (!(value_of(weights_) > 0.0)) return single;
     const T mean = total_ / weights_;
@@ -135,7 +136,7 @@ class SeenMean {
   T weights_ = 0.0;
 };
 
-/// e^2 at z, which moves with the edge.
+/// e^2 at z, with the derivatives of z.
 template <class T>
 T moving_square(std::span<const T> x, const T& z) {
   const Basis basis = basis_at(value_of(z));
@@ -144,10 +145,10 @@ T moving_square(std::span<const T> x, const T& z) {
   return square;
 }
 
-/// Spheres whose z is normal, from the last one that is seen to the end where all are.
+/// Adds spheres with normally distributed z, from the edge of detection to the end `from`.
 template <class T>
 void add_normal(std::span<const T> x, const T& edge, double from, bool whole, SeenMean<T>& mean) {
-  // Points crowd at the edge, where sqrt(e^2) is steep.
+  // The nodes are denser at the edge, where sqrt(e^2) is steep.
   const Quadrature& rule = quadrature();
   for (std::size_t i = 0; i < quadrature_points; ++i) {
     const double s = rule.at[i];
@@ -158,11 +159,11 @@ void add_normal(std::span<const T> x, const T& edge, double from, bool whole, Se
   }
 }
 
-/// The spheres of a piece of the sizes between the last one that is seen and `end`.
+/// Adds the spheres of a piece of the sizes between the edge of detection and `end`.
 template <class T>
 void add_seen_part(std::span<const T> x, const T& edge, double end, const SizePiece& piece,
                    double rate, SeenMean<T>& mean) {
-  // Diameters are spread evenly: the density of z is that of exp(rate z).
+  // The density of diameters is uniform, so that the density of z is proportional to exp(rate z).
   const double density =
       piece.weight * rate / (std::exp(rate * piece.to) - std::exp(rate * piece.from));
   const T width = value_of(edge) < end ? end - edge : edge - end;
@@ -191,7 +192,7 @@ const std::array<double, spread_nodes>& spread_positions() {
 }
 
 double cut_scale() {
-  // Variance of a normal distribution cut off at b: 1 - 2 b phi(b) / (2 Phi(b) - 1).
+  // Variance of a normal distribution truncated at b: 1 - 2 b phi(b) / (2 Phi(b) - 1).
   static const double scale =
       1.0 / std::sqrt(1.0 - 2.0 * spread_reach * normal_density(spread_reach) /
                                 (2.0 * normal_probability(spread_reach) - 1.0));
@@ -205,7 +206,7 @@ T survivors_square(std::span<const T> x, const T& seen, const MixedSizes& sizes)
   assert(x.size() == spread_nodes);
   const double low = value_of(x.front());
   const double high = value_of(x.back());
-  const bool low_best = low >= high;  // small z comes back most easily
+  const bool low_best = low >= high;  // the smallest z rebounds most easily
   const T& best = low_best ? x.front() : x.back();
   const T& worst = low_best ? x.back() : x.front();
   if (!(value_of(best) > value_of(seen))) return beyond_the_last(best, worst, seen);
@@ -244,7 +245,7 @@ template ManyDirections survivors_square(std::span<const ManyDirections>, const 
 
 namespace {
 
-/// Standard deviation of ln d, with the spheres of a bin spread evenly over it.
+/// Standard deviation of ln d, with a uniform density within each bin.
 double spread_of(const MeasuredSizes& sizes) {
   constexpr int parts = 50;
   const std::vector<SizeBin> fine = spread_within_bins(sizes.bins, parts);
@@ -259,7 +260,7 @@ double spread_of(const MeasuredSizes& sizes) {
 
 std::vector<SizePiece::Sphere> spheres_of(const SizeBin& bin, double part, double middle,
                                           double rate) {
-  constexpr std::size_t count = 5;  // of a bin, of which e is a smooth function
+  constexpr std::size_t count = 5;  // per bin; e is a smooth function of d
   std::vector<SizePiece::Sphere> spheres;
   for (const QuadratureNode& node : gauss_legendre(bin.width > 0.0 ? count : 1)) {
     const double d = bin.diameter + (node.at - 0.5) * bin.width;

@@ -3,7 +3,7 @@
 namespace recoil {
 namespace {
 
-/// Rebounds slower than this part of V are the border between seen and not seen.
+/// The slowest rebound that is detected, divided by V [1].
 constexpr double slowest_seen = 0.1;
 
 struct VelocityOffset {

@@ -11,7 +11,7 @@
 namespace recoil::plot {
 namespace {
 
-constexpr double letter = 13.0;        // size of the type [px]
+constexpr double letter = 13.0;        // font size [px]
 constexpr double mark_radius = 4.875;  // of a mark of size 1 [px]
 constexpr double tick_length = 5.0;    // [px]
 constexpr double key_row = 20.0;       // height [px]
@@ -21,7 +21,7 @@ constexpr int usual_ticks = 5;
 
 // ---- text --------------------------------------------------------------------------------------
 
-/// Letters that stand with a subscript when the name stands alone: name, stem, subscript.
+/// A symbol of the model that is drawn with a subscript.
 struct Symbol {
   std::string_view name, stem, subscript;
 };
@@ -48,10 +48,10 @@ const Symbol* symbol_at(std::string_view text, std::size_t at) {
   return nullptr;
 }
 
-/// Plain text as the content of a text element, symbols with their subscripts.
+/// The content of a text element for plain text, with subscripts of symbols.
 std::string with_symbols(std::string_view text) {
   std::string out;
-  std::size_t plain = 0;  // where the text begins that is not written yet
+  std::size_t plain = 0;  // begin of the text that is not written yet
   bool lowered = false;
   const auto write_plain = [&](std::size_t end) {
     if (end == plain) return;
@@ -74,7 +74,7 @@ std::string with_symbols(std::string_view text) {
   return out;
 }
 
-/// About how wide a text is in DejaVu Sans [px].
+/// Approximate width of a text in DejaVu Sans [px].
 double width_of(std::string_view text, double size) {
   double letters = 0.0;
   for (const char c : text) {
@@ -86,7 +86,7 @@ double width_of(std::string_view text, double size) {
   return letters * size;
 }
 
-/// Coordinates with a tenth of a pixel, without a zero at the end.
+/// A coordinate with at most one decimal.
 std::string px(double value) {
   std::string text = fmt::format("{:.1f}", value);
   if (text.ends_with(".0")) text.resize(text.size() - 2);
@@ -107,7 +107,7 @@ std::string text_svg(double x, double y, std::string_view text, Align align = Al
                      with_symbols(text));
 }
 
-/// Turned about its own place [degrees, counter-clockwise].
+/// The attribute that rotates a text about its place [degrees, counter-clockwise].
 std::string turned(double x, double y, double degrees) {
   return degrees == 0.0 ? ""
                         : fmt::format(" transform=\"rotate({:g} {} {})\"", -degrees, px(x), px(y));
@@ -176,8 +176,7 @@ std::string mark_path(Mark mark, double x, double y, double r) {
   return "";
 }
 
-/// A dot is a stroke without length and with a round end: a few bytes each, of which there may be
-/// hundreds.
+/// The attributes of a mark. A dot is a stroke of length 0 with round ends, which takes few bytes.
 std::string mark_look(const Marker& marker, double r, double width) {
   if (marker.mark == Mark::dot) {
     return pen(marker.colour, 2.0 * r) + " stroke-linecap=\"round\"";
@@ -211,10 +210,10 @@ double widest(const std::vector<Tick>& ticks, double size) {
   return width;
 }
 
-/// From a number of an axis to pixels.
+/// Converts numbers of an axis to pixels.
 struct Scale {
   Axis axis;
-  double first = 0.0, last = 0.0;  // where the axis begins and ends [px]
+  double first = 0.0, last = 0.0;  // ends of the axis [px]
 
   double operator()(double value) const {
     const auto along = [&](double v) { return axis.logarithmic ? std::log(v) : v; };
@@ -267,7 +266,7 @@ class PlotWriter {
   }
 
  private:
-  /// The rows of the key, as many entries in each as there is room for.
+  /// The rows of the key, with as many entries in each as fit.
   std::vector<std::vector<KeyEntry>> key_rows() const {
     constexpr double gap = 18.0;
     std::vector<std::vector<KeyEntry>> rows;
@@ -373,7 +372,7 @@ class PlotWriter {
     return out;
   }
 
-  /// How a layer looks in the key, to the right of `x`.
+  /// The sample of a layer in the key, to the right of `x`.
   template <class Kind>
   static std::string sample_svg(const Kind& shown, double x, double y) {
     const double middle = x + sample_width / 2.0;
@@ -400,7 +399,7 @@ class PlotWriter {
 
   std::string clip() const { return fmt::format(" clip-path=\"url(#{}-clip)\"", id_); }
 
-  // Each draws a layer.
+  // One function for each kind of layer.
 
   std::string layer_svg(const Points& points) const {
     const double r = mark_radius * points.size;
@@ -505,7 +504,7 @@ class PlotWriter {
                     turned(x, y, words.turned) + (words.bold ? " font-weight=\"bold\"" : ""));
   }
 
-  /// The colours of values as a bar to the right.
+  /// The colour bar to the right of the plot.
   std::string scale_svg(const ColourScale& scale) const {
     const double left = x_.last + 14.0;
     Scale along{Axis{}, lower(), upper()};
@@ -578,27 +577,15 @@ std::string draw_svg(const Picture& picture) {
 }
 
 std::string escape_xml(std::string_view text) {
+  constexpr std::string_view special = "&<>\"'";
+  constexpr std::array<const char*, 5> escaped = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    if (const std::size_t k = special.find(c); k != std::string_view::npos) {
+      out += escaped[k];
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
     }
   }
   return out;

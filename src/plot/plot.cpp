@@ -7,6 +7,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "data/csv.hpp"
+
 namespace recoil::plot {
 namespace {
 
@@ -16,7 +18,7 @@ struct Column {
   std::vector<double> values;
 };
 
-/// The columns of one layer; none where it shows no data.
+/// The columns of one layer; none if it shows no data.
 std::vector<Column> columns_of(const Layer& layer, const Plot& plot) {
   const auto titled = [](const Axis& axis, const char* otherwise, const char* what) {
     const std::string name = axis.label.empty() ? otherwise : axis.label;
@@ -54,14 +56,6 @@ std::vector<Column> columns_of(const Layer& layer, const Plot& plot) {
         }
       },
       layer);
-}
-
-/// A cell in quotes where it has to be.
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
-  std::string out = "\"";
-  for (const char c : cell) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
 }
 
 }  // namespace
@@ -153,7 +147,7 @@ std::string csv_of(const Picture& picture) {
     to->values.insert(to->values.end(), from.values.begin(), from.values.end());
     rows = std::max(rows, to->values.size());
   };
-  std::vector<std::pair<Column, std::size_t>> begun;  // first columns, and the rows they begin in
+  std::vector<std::pair<Column, std::size_t>> begun;  // first columns and their first rows
   for (const Plot& plot : picture.plots) {
     for (const Layer& layer : plot.layers) {
       std::vector<Column> columns = columns_of(layer, plot);
@@ -178,7 +172,7 @@ std::string csv_of(const Picture& picture) {
   }
   if (sheet.empty()) return "";
   std::string out;
-  for (const Column& one : sheet) out += (out.empty() ? "" : ",") + quoted(one.title);
+  for (const Column& one : sheet) out += (out.empty() ? "" : ",") + csv_cell(one.title);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t c = 0; c < sheet.size(); ++c) {
       out += c == 0 ? '\n' : ',';

@@ -7,11 +7,9 @@
 #include <variant>
 #include <vector>
 
-/// What a picture shows; plot/draw.hpp draws it. Numbers are those of the axes. Texts are plain;
-/// the symbols of the model in them (C_H, f0) are set as such.
+/// The content of a picture, which plot/draw.hpp draws. Numbers are in units of the axes. Texts are
+/// plain; symbols of the model in them (C_H, f0) are drawn with subscripts.
 namespace recoil::plot {
-
-// How marks and lines look.
 
 /// "#0072B2"
 using Colour = std::string;
@@ -39,7 +37,7 @@ enum class Mark {
   cross
 };
 
-/// A colour and a mark that belong together, so that colour is never the only key.
+/// A colour and a mark for one series, so that colour is never the only difference.
 struct Marker {
   std::string_view colour;
   Mark mark;
@@ -51,7 +49,7 @@ inline constexpr std::array<Marker, 7> markers = {{{blue, Mark::dot},
                                                    {vermillion, Mark::triangle_down},
                                                    {sky, Mark::circle},
                                                    {ink, Mark::open_square}}};
-/// The one for the k-th of several series, from the start again when they run out.
+/// The marker of the k-th series; they repeat after the last one.
 inline const Marker& marker(std::size_t k) { return markers[k % markers.size()]; }
 
 enum class Dash { solid, long_dashes, dashes, dots, dash_dot };
@@ -65,10 +63,10 @@ struct Stroke {
 struct Fill {
   Colour colour = std::string(sky);
   double opacity = 1.0;
-  bool rim = false;  ///< a thin white one, which keeps neighbours apart
+  bool rim = false;  ///< a thin white rim, which separates neighbours
 };
 
-/// From here to there, on an axis.
+/// A range on an axis.
 struct Range {
   double lower = 0.0;
   double upper = 1.0;
@@ -77,19 +75,19 @@ struct Range {
   double width() const { return upper - lower; }
 };
 
-/// Holds all finite values, with a margin on both sides (a share of the width); [0, 1] when there
-/// are none.
+/// The range of all finite values, with a margin on both sides (a share of the width); [0, 1] if
+/// there are none.
 Range range_of(const std::vector<double>& values, double margin);
 
-/// The same for a logarithmic axis: the margin is a share of the ratio. Values that are not
-/// positive have no place there.
+/// The same for a logarithmic axis, with the margin as a share of the logarithmic width. Values
+/// that are not positive are omitted.
 Range log_range_of(const std::vector<double>& values, double margin);
 
 enum class Direction { horizontal, vertical };
 
 // Layers, drawn in their order. A layer with a name has an entry in the key.
 
-/// Marks, with error bars where there are any.
+/// Marks with optional error bars.
 struct Points {
   std::vector<double> x, y;
   std::vector<double> lower = {}, upper = {};  ///< ends of the error bars; empty: none
@@ -102,7 +100,7 @@ struct Points {
   Points& with_sd(const std::vector<double>& sd);
 };
 
-/// A line through points, interrupted where a value is not finite; with marks where it has any.
+/// A line through points, with optional marks, interrupted at values that are not finite.
 struct Line {
   std::vector<double> x, y;
   Stroke stroke = {};
@@ -111,7 +109,7 @@ struct Line {
   std::string name = {};
 };
 
-/// What lies between two lines.
+/// The area between two lines.
 struct Band {
   std::vector<double> x, lower, upper;
   Fill fill = {std::string(blue), 0.2};
@@ -122,15 +120,15 @@ struct Band {
 struct Boxes {
   std::vector<double> left, right, bottom, top;
   Fill fill = {};
-  std::vector<Colour> colours = {};  ///< one of each box instead of the fill's
-  std::vector<double> values = {};   ///< told by the colour scale of the plot instead
+  std::vector<Colour> colours = {};  ///< of each box, instead of the fill's; may be empty
+  std::vector<double> values = {};   ///< of each box, for the colour scale; may be empty
   std::string name = {};
 
   void add(double from_x, double to_x, double from_y, double to_y);
   std::size_t size() const { return left.size(); }
 };
 
-/// Discs whose area grows with how far `values` are from nothing, coloured by the colour scale.
+/// Discs whose radius increases with |values|, coloured by the colour scale.
 struct Discs {
   std::vector<double> x, y, values;
   std::string name = {};
@@ -144,14 +142,14 @@ struct Rule {
   std::string name = {};
 };
 
-/// A shaded part of the plot; without an end it reaches the rim.
+/// A shaded part of the plot, up to the rim on sides without a value.
 struct Region {
   std::optional<double> left = {}, right = {}, bottom = {}, top = {};
   Fill fill = {std::string(green), 0.18};
   std::string name = {};
 };
 
-/// A place along one direction: a number of the axis or a share of the way from rim to rim.
+/// A coordinate: a number of the axis, or a share of the plot's width or height.
 struct Place {
   double at = 0.0;
   bool share = false;
@@ -161,7 +159,7 @@ inline Place share_of_plot(double at) { return {at, true}; }
 
 enum class Align { left, centre, right };
 
-/// Words in the plot.
+/// Text in the plot.
 struct Words {
   std::string text;
   Place x, y;
@@ -175,7 +173,7 @@ struct Words {
 
 using Layer = std::variant<Points, Line, Band, Boxes, Discs, Rule, Region, Words>;
 
-/// The name of a layer in the key; empty where it has none.
+/// The name of a layer in the key; empty if it has none.
 const std::string& name_of(const Layer& layer);
 
 struct Tick {
@@ -190,7 +188,7 @@ struct Axis {
   bool logarithmic = false;
   std::vector<Tick> ticks = {};  ///< empty: about five round numbers
   bool grid = true;
-  bool upright = false;     ///< tick labels turned, where they are long and many
+  bool upright = false;     ///< tick labels are rotated, for many or long ones
   double tick_size = 13.0;  ///< of the tick labels [px]
 
   void set_range(Range range) {
@@ -201,7 +199,7 @@ struct Axis {
   std::string title() const;
 };
 
-/// The colours of values: white or light grey in the middle where it diverges.
+/// The colours of values. A diverging scale is white or light grey in the middle.
 struct ColourScale {
   std::string label = {};
   Range range = {-1.0, 1.0};
@@ -209,15 +207,15 @@ struct ColourScale {
   std::string unit = {};                                        ///< behind its numbers: " %"
 };
 
-/// Where the names of the layers stand.
+/// The place of the key, the names of the layers.
 enum class KeyPlace { none, above, below };
 
-/// Where a plot's axes stand in a picture of several [px from the left and from the foot].
+/// The place of a plot's axes in a picture of several [px from the left and from the bottom].
 struct Frame {
   double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
 };
 
-/// A pair of axes and what stands between them.
+/// A pair of axes and the layers between them.
 struct Plot {
   std::string heading = {};
   std::string remark = {};  ///< under the heading, smaller
@@ -233,20 +231,20 @@ struct Plot {
 /// One or several plots in one frame.
 struct Picture {
   std::string name;   ///< letters, digits, '-'; the prefix of every id in the SVG
-  std::string title;  ///< what a screen reader says
+  std::string title;  ///< for screen readers
   int width = 480;    ///< [px] of the view box
   int height = 340;   ///< [px]
   std::vector<Plot> plots = {};
 };
 
-/// `text` made fit for `Picture::name`.
+/// `text` converted to a `Picture::name`.
 std::string plot_name(std::string_view text);
 
-/// The numbers that a picture shows as one table of comma-separated values (RFC 4180), in five
-/// digits: a column for every column of its layers, named "LAYER: QUANTITY [UNIT]", pure numbers
-/// without a unit. Layers that begin with the same quantity share its column, "QUANTITY [UNIT]",
-/// and its rows where it has the same values there; cells in which a layer has nothing are empty.
-/// Two columns of one name are told apart by (2). Empty where the picture shows no data.
+/// The numbers of a picture as one table of comma-separated values (RFC 4180) with five digits. It
+/// has a column for every column of the layers, named "LAYER: QUANTITY [UNIT]", without a unit for
+/// pure numbers. Layers whose first quantity is the same share its column, "QUANTITY [UNIT]", and
+/// also the rows if the values are the same. Other cells are empty. "(2)" is appended to the name
+/// of a second column. The text is empty if the picture shows no data.
 std::string csv_of(const Picture& picture);
 
 }  // namespace recoil::plot

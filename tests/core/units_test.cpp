@@ -32,6 +32,11 @@ TEST(Units, KeepDimensionsApart) {
   EXPECT_EQ(unit_factor(Dimension::ratio, ""), std::nullopt);
 }
 
+TEST(Units, TextsHaveNone) {
+  EXPECT_TRUE(unit_names(Dimension::text).empty());
+  EXPECT_EQ(dimension_of_unit(""), std::nullopt);
+}
+
 TEST(Units, EveryListedNameIsAccepted) {
   for (const Dimension dimension :
        {Dimension::length, Dimension::velocity, Dimension::ratio, Dimension::count}) {

@@ -108,6 +108,7 @@ const Mistake package_mistakes[] = {
      "use um"},
     {"unit_unknown", "\"um\"", "\"furlong\"", "datapackage.json:11:57: ", "unknown unit 'furlong'",
      "use um"},
+    {"unit_empty", "\"um\"", "\"\"", "datapackage.json:11:57: ", "unknown unit ''", "use um"},
     {"unit_of_another_dimension", "\"m/s\"", "\"um\"",
      "datapackage.json:12:66: ", "'incident_velocity' in 'um'", "use m/s, cm/s"},
     {"unit_of_a_count", "\"integer\", \"unit\": \"1\"", "\"integer\", \"unit\": \"%\"",
