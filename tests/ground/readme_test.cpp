@@ -184,4 +184,24 @@ TEST(Readme, DiagnosisIsThatOfTheStudy) {
   }
 }
 
+TEST(Readme, PlainMethodsAreThoseOfTheStudy) {
+  const fs::path report = tree::root() / "reports/hidden-effects.md";
+  const fs::path file = tree::root() / "docs/diagnose-accuracy.md";
+  const auto asked = [](const fs::path& text) {
+    return tree::text_of(text).find("\n| method |") != std::string::npos;
+  };
+  ASSERT_EQ(asked(file), asked(report));
+  if (!asked(report)) return;  // a study without --baseline
+  const auto study = page::table_of(report, "| method |");
+  const auto manual = page::table_of(file, "| method |");
+  ASSERT_EQ(manual.size(), study.size()) << "one row for every method, in the same order";
+  for (std::size_t i = 0; i < study.size(); ++i) {
+    ASSERT_EQ(manual[i].size(), study[i].size());
+    EXPECT_EQ(manual[i][0], study[i][0]);
+    for (std::size_t k = 1; k < study[i].size(); ++k) {
+      EXPECT_EQ(manual[i][k], share_in(study[i][k])) << manual[i][0];
+    }
+  }
+}
+
 }  // namespace

@@ -27,4 +27,14 @@ TEST(Baseline, DiscrepancyIsTheMeanOfTheLikeliestGaussianProcess) {
       discrepancy_mean(log_velocity, log_diameter, {0.5, -0.7, 0.2, 0.1, -0.4, 0.6}).empty());
 }
 
+/// The offset of one batch lies 40 standard deviations from what the base model can follow, and is
+/// the only thing in the data that differs from batch to batch at equal V and d.
+TEST(Baseline, BothMethodsFindAStrongOffsetOfABatch) {
+  const BaselineAnswers answers = baseline_answers(
+      make_case({.design = "wall-batches", .effects = {"series_offset"}, .signal_to_noise = 40.0}));
+  ASSERT_FALSE(answers.stepwise.empty());
+  EXPECT_EQ(answers.stepwise.front(), "series_offset");
+  EXPECT_EQ(answers.correlated, "series_offset");
+}
+
 }  // namespace

@@ -8,6 +8,8 @@
 #include "analysis/analysis.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "diagnosis/candidate.hpp"
+#include "estimate/predictor.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case_files.hpp"
 
@@ -16,14 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using recoil::FitResult;
-
-/// Infinite where there is no fit.
-double aicc(const FitResult& fitted) {
-  if (!fitted.usable) return std::numeric_limits<double>::infinity();
-  const auto n = static_cast<double>(fitted.residuals.size());
-  const double k = fitted.model.free_count();
-  return fitted.chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
-}
 
 /// Of numbers about their means; 0 where one does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -83,18 +77,67 @@ FitResult fit_with(const fs::path& fit, const std::vector<std::string>& mechanis
   }
 }
 
+namespace {
+
+constexpr int starts = 4;  // as many as a diagnosis follows
+
+/// A model of the written case and its fit under the weights of the base model.
+struct Fitted {
+  recoil::Candidate candidate;
+  recoil::Refit refit;
+};
+
+/// Of numbers of the same points; infinite where there is no fit.
+double aicc(const FitResult& base, const Fitted& fitted) {
+  if (!fitted.refit.usable) return std::numeric_limits<double>::infinity();
+  return recoil::corrected_criterion(base.data, fitted.refit.chi2, fitted.candidate.free_count);
+}
+
+/// `from` with the mechanism `id` added, fitted from the starts that a diagnosis gives a single
+/// cause. Not usable where the data cannot have it.
+Fitted with_added(const recoil::FitInputs& inputs, const FitResult& base, const Fitted& from,
+                  const std::string& id) {
+  Fitted with;
+  std::vector<std::string> mechanisms = from.candidate.added;
+  mechanisms.push_back(id);
+  try {
+    with.candidate = recoil::make_candidate(inputs.spec, inputs.datasets, mechanisms);
+  } catch (const recoil::InputError&) {
+    return with;
+  }
+  with.refit = recoil::refit_candidate(
+      with.candidate, base.data,
+      recoil::carried_over(from.candidate.model, from.refit.theta, with.candidate.model), starts);
+  return with;
+}
+
+/// The change of e from `base` to `with` at the points, in standard deviations.
+std::vector<double> effect_of(const FitResult& base, const Fitted& with) {
+  std::vector<double> effect;
+  const auto squares =
+      recoil::predict(with.candidate.model, with.refit.theta, base.data.conditions(), false);
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    const double e = std::sqrt(std::max(squares[i].restitution_squared, 0.0));
+    effect.push_back((e - base.prediction[i]) / base.data.points[i].weights.sd);
+  }
+  return effect;
+}
+
+}  // namespace
+
 BaselineAnswers baseline_answers(const Case& made) {
   const ScratchFolder scratch;
-  const std::filesystem::path fit = write_case(made, scratch.path());
+  const recoil::FitInputs inputs = recoil::load_inputs(write_case(made, scratch.path()));
+  const FitResult base = recoil::fit(recoil::make_model(inputs.spec, inputs.datasets),
+                                     recoil::gather(inputs.datasets, inputs.spec));
+  BaselineAnswers answers;
+  if (!base.usable) return answers;
   std::vector<std::string> catalogue;
   for (const HiddenEffect& effect : hidden_effects()) {
     if (effect.kind == EffectKind::physics || effect.kind == EffectKind::measurement) {
       catalogue.emplace_back(effect.id);
     }
   }
-  const FitResult base = fit_with(fit, {});
-  BaselineAnswers answers;
-  if (!base.usable) return answers;
   std::vector<double> log_velocity, log_diameter;
   for (const recoil::Observation& point : base.data.points) {
     log_velocity.push_back(std::log(point.velocity));
@@ -102,32 +145,29 @@ BaselineAnswers baseline_answers(const Case& made) {
   }
   const std::vector<double> discrepancy =
       discrepancy_mean(log_velocity, log_diameter, base.residuals);
-  double least = aicc(base);
+  Fitted current{recoil::make_candidate(inputs.spec, inputs.datasets, {}), {}};
+  current.refit = recoil::refit_candidate(current.candidate, base.data, base.theta, 0);
+  double least = aicc(base, current);
   for (std::size_t round = 0; round < 2 && answers.stepwise.size() == round; ++round) {
+    const Fitted before = current;
     double largest = 0.0;
-    std::string added;
     for (const std::string& id : catalogue) {
-      std::vector<std::string> mechanisms = answers.stepwise;
-      if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) continue;
-      mechanisms.push_back(id);
-      const FitResult with = fit_with(fit, mechanisms);
-      if (aicc(with) < least) {
-        least = aicc(with);
-        added = id;
+      if (before.candidate.adds(id)) continue;
+      Fitted with = with_added(inputs, base, before, id);
+      if (!with.refit.usable) continue;
+      if (round == 0 && !discrepancy.empty()) {
+        const double alike = std::abs(correlation(effect_of(base, with), discrepancy));
+        if (alike > largest) {
+          largest = alike;
+          answers.correlated = id;
+        }
       }
-      if (round > 0 || discrepancy.empty() || !with.usable) continue;
-      std::vector<double> effect;
-      for (std::size_t i = 0; i < with.prediction.size(); ++i) {
-        effect.push_back((with.prediction[i] - base.prediction[i]) /
-                         base.data.points[i].weights.sd);
-      }
-      const double alike = std::abs(correlation(effect, discrepancy));
-      if (alike > largest) {
-        largest = alike;
-        answers.correlated = id;
-      }
+      if (!(aicc(base, with) < least)) continue;
+      least = aicc(base, with);
+      answers.stepwise.resize(round);
+      answers.stepwise.push_back(id);
+      current = std::move(with);
     }
-    if (!added.empty()) answers.stepwise.push_back(added);
   }
   return answers;
 }

@@ -25,7 +25,8 @@ struct BaselineAnswers {
 recoil::FitResult fit_with(const std::filesystem::path& fit,
                            const std::vector<std::string>& mechanisms);
 
-/// Fits the base model, every mechanism, and every second one beside the best.
+/// Fits the base model, every mechanism, and every second one beside the best, all under the
+/// weights of the base model and from the fit with one mechanism less.
 BaselineAnswers baseline_answers(const Case& made);
 
 /// The sd of a Gaussian process f with covariance s^2 exp(-|x - x'|^2 / 2) that makes residuals

@@ -330,8 +330,7 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
   command->add_option("--odd", size.odd, "of each design, with a few points misread");
   command->add_option("--only", options->only, "only orders whose key contains this");
   command->add_flag("--baseline", options->baseline,
-                    "also ask stepwise AICc and the correlation with a Gaussian process, 40 fits "
-                    "each");
+                    "also ask stepwise AICc and the correlation with a Gaussian process");
   command->add_option("--recoil", options->binary, "the command to be judged");
   command->add_option("--at-most-minutes", options->minutes,
                       "begin no further diagnosis after this time and report what is done (0: what "

@@ -78,7 +78,7 @@ const std::vector<Study>& all_studies() {
        "reports/coverage-noise.json"},
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
-       "--impossible 2 --seed 20261123",
+       "--impossible 2 --baseline --seed 20261123",
        "reports/hidden-effects.json"},
       {"posterior-ranks", "posterior-ranks --datasets 400", "reports/posterior-ranks.json"},
       {"pairing", "pairing", "reports/pairing.json"},
