@@ -93,10 +93,15 @@ class Table {
 }  // namespace
 
 RootMoments root_of_positive_normal(double u) {
-  if (u > Table::to) return far_above_capture(u);
-  if (!(u > Table::from)) return by_quadrature(u);
-  static const Table table;
-  return table(u);
+  // Rows of one setting ask for the same u in succession, and so do the parts of one deviance.
+  static thread_local double last = NAN;
+  static thread_local RootMoments moments;
+  if (u != last) {
+    static const Table table;
+    moments = u > Table::to ? far_above_capture(u) : u >= Table::from ? table(u) : by_quadrature(u);
+    last = u;
+  }
+  return moments;
 }
 
 namespace {
@@ -108,7 +113,7 @@ struct NormalTails {
 };
 
 /// @param logarithms whether they are asked for; else they are 0
-NormalTails normal_tails(double z, bool logarithms) {
+NormalTails normal_tails_at(double z, bool logarithms) {
   const double distance = std::abs(z);
   NormalTails t{};
   constexpr double far = 25.0;  // std::erfc underflows at 38
@@ -130,6 +135,19 @@ NormalTails normal_tails(double z, bool logarithms) {
     }
   }
   return z < 0.0 ? NormalTails{t.log_below, t.log_above, t.hazard_below, t.hazard_above} : t;
+}
+
+/// Rows of one setting ask for the same z in succession.
+NormalTails normal_tails(double z, bool logarithms) {
+  static thread_local double last = NAN;
+  static thread_local bool with_logarithms = false;
+  static thread_local NormalTails tails;
+  if (z != last || (logarithms && !with_logarithms)) {
+    tails = normal_tails_at(z, logarithms);
+    last = z;
+    with_logarithms = logarithms;
+  }
+  return tails;
 }
 
 /// How the captures among the impacts of a point are spread: independent from impact to impact, and
@@ -182,6 +200,8 @@ Deviance event_deviance(const Observation& point, double m, bool slope_only) {
   if (!point.counted) return d;
   const CaptureSpread spread = capture_spread(point);
   const double z = x / spread.scale;
+  constexpr double none_sticks = 9.0;  // Phi(-9) = 1e-19 changes no digit
+  if (point.captured == 0 && z > none_sticks) return d;
   const NormalTails tails = normal_tails(z, !slope_only);
   const double captured = spread.weight * point.captured;
   const double rebounds = spread.weight * point.rebounds();
@@ -211,7 +231,7 @@ WeightedResidual event_residual(const Observation& point, double m) {
 WeightedResidual mean_residual(const Observation& point, double m) {
   const double variance = point.weights.sd * point.weights.sd;
   const double y = point.restitution * point.restitution - variance;
-  const double hypotenuse = std::hypot(m, variance);
+  const double hypotenuse = std::sqrt(m * m + variance * variance);
   // For m far below zero (m + hypotenuse) cancels; the conjugate form does not.
   const double psi_squared =
       m >= 0.0 ? 0.5 * (m + hypotenuse) : 0.5 * variance * variance / (hypotenuse - m);
@@ -249,9 +269,13 @@ void locate_peak(Observation& point) {
   double high = point.restitution * point.restitution - point.weights.shift + reach;
   DeviancePeak& peak = point.weights.peak;
   // Newton from the peak of the round before, then secants, and halving where these are slow; by
-  // hand, since it runs for every point in every round of every replicate.
+  // hand, since it runs for every point in every round of every replicate. The error after a step
+  // of the secants is about its product with the error before it.
   constexpr int most_steps = 200;
   const double close_enough = 1e-13 * reach;
+  const double h = 1e-3 * std::min(point.weights.scatter,
+                                   std::max(point.weights.mean_sd, 1e-3 * point.weights.scatter));
+  const double last_step = std::max(close_enough, 1e-4 * h);
   if (!(peak.at > low && peak.at < high)) peak.at = 0.5 * (low + high);
   double before = 0.0;
   double slope_before = 0.0;
@@ -265,16 +289,14 @@ void locate_peak(Observation& point) {
     slope_before = d.slope;
     const bool halve = i % 8 == 7 || !(guess > low && guess < high);
     peak.at = halve ? 0.5 * (low + high) : guess;
-    if (std::abs(peak.at - before) < close_enough) break;
+    if (std::abs(peak.at - before) < (halve || i == 0 ? close_enough : last_step)) break;
   }
   peak.deviance = event_deviance(point, peak.at);
-  const double h = 1e-3 * std::min(point.weights.scatter,
-                                   std::max(point.weights.mean_sd, 1e-3 * point.weights.scatter));
   const auto slope = [&](double m) { return event_deviance(point, m, true).slope; };
   const double more = slope(peak.at + h);
   const double less = slope(peak.at - h);
   peak.curvature = (more - less) / (2.0 * h);
-  peak.third = (more - 2.0 * slope(peak.at) + less) / (h * h);
+  peak.third = (more + less) / (h * h);  // the slope at the peak is 0
 }
 
 double survivors_sd(const Observation& point, double m) {
@@ -282,8 +304,9 @@ double survivors_sd(const Observation& point, double m) {
   const double variance =
       root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).variance;
   const double of_scatter = std::sqrt(point.weights.scatter * variance / point.rebounds());
-  return point.rebounds() == 1 ? std::hypot(point.weights.sd, of_scatter)
-                               : std::max(point.weights.sd, of_scatter);
+  const double sd = point.weights.sd;
+  return point.rebounds() == 1 ? std::sqrt(sd * sd + of_scatter * of_scatter)
+                               : std::max(sd, of_scatter);
 }
 
 double expected_restitution(const Observation& point, double m) {

@@ -73,16 +73,26 @@ class Renewal {
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
 
-  /// Where the answers of the model are needed beside the points.
-  std::vector<PointConditions> questions() const {
+  /// Where the answers of the model are needed beside the points, whose answers `points` may keep.
+  std::vector<PointConditions> questions(const PointPredictor& points) {
     std::vector<PointConditions> all;
+    scatters_.assign(data_.points.size(), mixed_);
+    for (std::size_t i = 0; mixed_ && points.keeps_answers() && i < scatters_.size(); ++i) {
+      // So far from capture the scatter is out of use by the slope alone.
+      const Observation& p = data_.points[i];
+      const double first_order =
+          data_.noise.event_spread * p.velocity * std::abs(points.velocity_slope(i));
+      scatters_[i] = p.captured > 0 ||
+                     !(points.at(i).restitution_squared > 2.0 * far_from_capture * first_order);
+    }
     const auto beside = [&](const Observation& p, double h, bool in_velocity) {
       for (const double factor : {std::exp(h), std::exp(-h)}) {
         all.push_back({p.dataset, p.diameter * (in_velocity ? 1.0 : factor),
                        p.velocity * (in_velocity ? factor : 1.0), p.series});
       }
     };
-    for (const Observation& p : data_.points) {
+    for (std::size_t i = 0; i < data_.points.size(); ++i) {
+      const Observation& p = data_.points[i];
       if (everything_ && p.velocity_sd > 0.0)
         beside(p, error_step(p.velocity_sd / p.velocity), true);
       if (everything_ && p.setting_velocity_sd > 0.0)
@@ -90,7 +100,7 @@ class Renewal {
       for (const double sd : {p.diameter_sd, p.series_diameter_sd}) {
         if (everything_ && sd > 0.0) beside(p, error_step(sd / p.diameter), false);
       }
-      if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
+      if (scatters_[i]) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
     }
     return all;
   }
@@ -108,7 +118,11 @@ class Renewal {
     std::vector<Local> locals;
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (everything_) set_errors(data_.points[i], at[i], local);
-      if (mixed_) locals.push_back(local(at[i], std::sqrt(3.0) * data_.noise.event_spread));
+      if (scatters_[i]) {
+        locals.push_back(local(at[i], std::sqrt(3.0) * data_.noise.event_spread));
+      } else if (mixed_) {
+        locals.push_back({at[i], 0.0, 0.0});
+      }
     }
     if (mixed_) estimate_scatter(locals);
   }
@@ -118,10 +132,12 @@ class Renewal {
                            double factor) const {
     Observations changed = data_;
     changed.noise.event_spread *= factor;
+    auto next = beside.begin();
     for (std::size_t i = 0; i < changed.points.size(); ++i) {
+      if (!scatters_[i]) continue;
       const double middle = at[i];
-      const double more = beside[2 * i].restitution_squared;
-      const double less = beside[2 * i + 1].restitution_squared;
+      const double more = (next++)->restitution_squared;
+      const double less = (next++)->restitution_squared;
       const double h = std::sqrt(3.0) * data_.noise.event_spread;
       Observation& point = changed.points[i];
       if (!(point.weights.scatter > 0.0)) continue;
@@ -190,16 +206,19 @@ class Renewal {
       point.weights.shift = 0.0;
       return;
     }
-    const double slope = root_of_positive_normal(u).slope / std::sqrt(point.weights.scatter);
-    point.weights.mean_sd =
-        std::hypot(survivors_sd(point, at.value), slope * point.weights.input_sd);
+    const double by_input = root_of_positive_normal(u).slope / std::sqrt(point.weights.scatter) *
+                            point.weights.input_sd;
+    const double own = survivors_sd(point, at.value);
+    point.weights.mean_sd = std::sqrt(own * own + by_input * by_input);
   }
 
-  double deviance(const std::vector<Local>& locals, double log_spread) const {
+  /// -2 ln likelihood but for a constant; leaves the points with this spread.
+  double deviance(const std::vector<Local>& locals, double log_spread) {
+    const double spread = std::exp(log_spread);
     double sum = 0.0;
     for (std::size_t i = 0; i < locals.size(); ++i) {
-      Observation point = data_.points[i];
-      set_scatter(point, locals[i], std::exp(log_spread));
+      Observation& point = data_.points[i];
+      set_scatter(point, locals[i], spread);
       if (point.weights.scatter > 0.0) {
         sum += event_deviance(point, locals[i].value);
         if (!point.censored) sum += 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
@@ -223,62 +242,59 @@ class Renewal {
     }
   }
 
-  /// The minimum of the deviance in ln omega: near the omega of the round before, by parabolas
-  /// and, where these fail, by the golden section; where that ends on a slope, anywhere.
-  double lowest(const std::vector<Local>& locals) const {
+  /// The minimum of the deviance in ln omega: downhill from the omega of the round before, by
+  /// parabolas and, where these fail, by the golden section; where that ends on a slope, anywhere.
+  double lowest(const std::vector<Local>& locals) {
     const double before = std::log(data_.noise.event_spread);
-    constexpr double tolerance = 1e-3;  // of omega, relative
+    constexpr double tolerance = 1e-3;          // of omega, relative
+    const double close = std::sqrt(tolerance);  // a step of Newton's leaves about its square
+    const double least = std::log(least_spread);
+    const double most = std::log(largest_spread);
     const auto at = [&](double log_spread) { return deviance(locals, log_spread); };
-    constexpr int most_parabolas = 5;
+    constexpr int most_parabolas = 8;
     constexpr double width = 0.02;  // of a parabola, to either side
     double place = before;
     double lowest_value = at(place);
     for (int i = 0; i < most_parabolas; ++i) {
       const double more = at(place + width);
       const double less = at(place - width);
-      // On the least spread, which a wider one does not better.
-      if (place < std::log(least_spread) + width && more > lowest_value) return place;
+      // At an end of the range, beyond which it would be lower.
+      if (place < least + width && more > lowest_value) return place;
+      if (place > most - width && less > lowest_value) return place;
       const double bend = (more - 2.0 * lowest_value + less) / (width * width);
-      const double step = -(more - less) / (2.0 * width) / bend;
-      const double next = place + step;
-      if (!(bend > 0.0) || !(std::abs(next - before) < 0.95 * near_reach) ||
-          !(next > std::log(least_spread)) || !(next < std::log(largest_spread))) {
-        break;
-      }
-      if (std::abs(step) < tolerance) return next;
+      const double downhill = (less - more) / (2.0 * width);
+      const double step = bend > 0.0 ? std::clamp(downhill / bend, -near_reach, near_reach)
+                                     : std::copysign(near_reach, downhill);
+      const double next = std::clamp(place + step, least, most);
+      if (bend > 0.0 && std::abs(step) < close) return next;
       const double there = at(next);
       if (!(there < lowest_value)) break;
       place = next;
       lowest_value = there;
     }
-    const double near =
-        find_minimum(at, std::max(before - near_reach, std::log(least_spread)),
-                     std::min(before + near_reach, std::log(largest_spread)), tolerance);
-    if (std::abs(near - before) < 0.95 * near_reach) return near;
+    const double near = find_minimum(at, std::max(place - near_reach, least),
+                                     std::min(place + near_reach, most), tolerance);
+    if (std::abs(near - place) < 0.95 * near_reach) return near;
     constexpr int grid = 12;
-    const double from = std::log(least_spread);
-    const double stride = (std::log(largest_spread) - from) / grid;
+    const double stride = (most - least) / grid;
     int best = 0;
     double best_value = INFINITY;
     for (int i = 0; i <= grid; ++i) {
-      const double value = at(from + i * stride);
+      const double value = at(least + i * stride);
       if (value < best_value) {
         best = i;
         best_value = value;
       }
     }
-    return find_minimum(at, from + std::max(best - 1, 0) * stride,
-                        from + std::min(best + 1, grid) * stride, tolerance);
+    return find_minimum(at, least + std::max(best - 1, 0) * stride,
+                        least + std::min(best + 1, grid) * stride, tolerance);
   }
 
   Observations& data_;
   bool everything_;
-  bool mixed_ = false;  ///< somewhere spheres both rebound and stick
+  bool mixed_ = false;          ///< somewhere spheres both rebound and stick
+  std::vector<bool> scatters_;  ///< which points may be near enough to capture for that to matter
 };
-
-}  // namespace
-
-namespace {
 
 /// The model's e^2 at the points of some data, and its answers to the questions beside them.
 struct Answers {
@@ -289,7 +305,7 @@ struct Answers {
 /// Nothing when the model has no answer somewhere. A fit asks `points` for the same theta with
 /// gradients next: few points are asked for them at once.
 std::optional<Answers> ask(const ImpactModel& model, std::span<const double> theta,
-                           PointPredictor& points, std::vector<PointConditions> questions) {
+                           PointPredictor& points, Renewal& renewal) {
   Answers answers{std::vector<double>(points.size()), {}};
   std::atomic<bool> answered = true;
   const auto take = [&](std::size_t first, std::span<const ImpactResult> block) {
@@ -300,6 +316,7 @@ std::optional<Answers> ask(const ImpactModel& model, std::span<const double> the
   };
   points.evaluate_blocks(theta, points.keeps_answers(), take);
   if (!answered) return std::nullopt;
+  std::vector<PointConditions> questions = renewal.questions(points);
   if (!questions.empty()) answers.beside = predict(model, theta, std::move(questions), false);
   for (const Prediction& answer : answers.beside) {
     if (!answer.usable()) return std::nullopt;
@@ -307,8 +324,11 @@ std::optional<Answers> ask(const ImpactModel& model, std::span<const double> the
   return answers;
 }
 
-}  // namespace
-
+/// Renews whatever in the weights of `data` depends on the parameters, at `theta`: estimated
+/// standard deviations (for the present variance function and scale), effective variances, the
+/// scatter from impact to impact (event_spread by maximum likelihood), and what settings share.
+/// @param points answers for the points of `data`
+/// @returns the predicted e^2 of every point; nothing when the model has no answer somewhere.
 std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
                                                  std::span<const double> theta,
                                                  PointPredictor& points, Observations& data) {
@@ -325,19 +345,21 @@ std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
     }
   }
   Renewal renewal(data);
-  auto answers = ask(model, theta, points, renewal.questions());
+  auto answers = ask(model, theta, points, renewal);
   if (!answers) return std::nullopt;
   renewal.learn(answers->at, answers->beside);
   renew_settings(answers->at, model.free_count(), data);
   return std::move(answers->at);
 }
 
+}  // namespace
+
 bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
                         Observations& data) {
   if (!(data.noise.event_spread > 0.0)) return true;
   Renewal renewal(data, Renewal::What::event_spread);
   PointPredictor points(model, data.conditions());
-  const auto answers = ask(model, theta, points, renewal.questions());
+  const auto answers = ask(model, theta, points, renewal);
   if (answers) renewal.learn(answers->at, answers->beside);
   return answers.has_value();
 }
@@ -346,9 +368,9 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
                                             const Observations& data, std::span<const double> C) {
   if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
   Observations own = data;
-  const Renewal renewal(own, Renewal::What::event_spread);
+  Renewal renewal(own, Renewal::What::event_spread);
   const auto points = std::make_shared<PointPredictor>(model, data.conditions());
-  const auto answers = ask(model, theta, *points, renewal.questions());
+  const auto answers = ask(model, theta, *points, renewal);
   if (!answers) return {};
   const std::size_t n = data.points.size();
   const std::size_t p = theta.size();

@@ -7,19 +7,8 @@
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
-#include "estimate/predictor.hpp"
 
 namespace recoil {
-
-/// Renews whatever in the weights of `data` depends on the parameters, at `theta`: estimated
-/// standard deviations (for the present variance function and scale), effective variances, the
-/// scatter from impact to impact (event_spread by maximum likelihood), and what settings share.
-/// Equations: see `reweighted_fit`.
-/// @param points answers for the points of `data`
-/// @returns the predicted e^2 of every point; nothing when the model has no answer somewhere.
-std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
-                                                 std::span<const double> theta,
-                                                 PointPredictor& points, Observations& data);
 
 /// Renews only the scatter from impact to impact: event_spread by maximum likelihood at `theta`,
 /// and what follows from it for the points; standard deviations and effective variances stay.

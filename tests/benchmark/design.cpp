@@ -29,25 +29,34 @@ ImpactSystem materials() {
   return system;
 }
 
-std::string points_csv() {
-  std::string text = "series,diameter,incident_velocity,restitution,restitution_sd\n";
+std::string points_csv(int velocities, bool state_sd) {
+  std::string text = "series,diameter,incident_velocity,restitution";
+  text += state_sd ? ",restitution_sd\n" : "\n";
   std::uint64_t index = 0;
   for (const double diameter : diameters()) {
     const double lowest = lowest_velocity * true_capture_velocity(truth(), diameter);
-    for (int i = 0; i < velocities_per_diameter; ++i) {
-      const double part = static_cast<double>(i) / (velocities_per_diameter - 1);
+    for (int i = 0; i < velocities; ++i) {
+      const double part = static_cast<double>(i) / (velocities - 1);
       const double velocity = three_digits(lowest * std::pow(highest_velocity / lowest, part));
       const double e = true_restitution(truth(), diameter, velocity);
       const double sd = relative_noise * e;
       RandomStream random(noise_seed, RandomPurpose::reconstruction, index++);
-      text += fmt::format("{0:.2f} um,{0:.2f},{1},{2},{3}\n", diameter / units::um, velocity,
-                          e + sd * random.normal(), sd);
+      text += fmt::format("{0:.2f} um,{0:.2f},{1},{2}", diameter / units::um, velocity,
+                          e + sd * random.normal());
+      text += state_sd ? fmt::format(",{}\n", sd) : "\n";
     }
   }
   return text;
 }
 
-std::string datapackage_json() {
+/// A field after the restitution: a count, or a number without dimension.
+std::string field_json(const char* column, bool is_count) {
+  return fmt::format(",\n      {{ \"name\": \"{}\", {} }}", column,
+                     is_count ? R"("type": "integer")" : R"("type": "number", "unit": "1")");
+}
+
+/// @param more fields after the restitution
+std::string datapackage_json(const std::string& more) {
   const ImpactSystem system = materials();
   return fmt::format(R"({{
   "name": "benchmark",
@@ -58,8 +67,7 @@ std::string datapackage_json() {
       {{ "name": "series", "type": "string" }},
       {{ "name": "diameter", "type": "number", "unit": "um" }},
       {{ "name": "incident_velocity", "type": "number", "unit": "m/s" }},
-      {{ "name": "restitution", "type": "number", "unit": "1" }},
-      {{ "name": "restitution_sd", "type": "number", "unit": "1" }}
+      {{ "name": "restitution", "type": "number", "unit": "1" }}{}
     ] }}
   }}],
   "recoil": {{
@@ -70,10 +78,11 @@ std::string datapackage_json() {
   }}
 }}
 )",
-                     system.particle.name, system.particle.density, system.particle.youngs_modulus,
-                     system.particle.poisson_ratio, system.surface.name,
-                     system.surface.youngs_modulus, system.surface.poisson_ratio,
-                     *system.stiffness_K, *system.adhesion_force_f0, *system.reference_diameter);
+                     more, system.particle.name, system.particle.density,
+                     system.particle.youngs_modulus, system.particle.poisson_ratio,
+                     system.surface.name, system.surface.youngs_modulus,
+                     system.surface.poisson_ratio, *system.stiffness_K, *system.adhesion_force_f0,
+                     *system.reference_diameter);
 }
 
 std::string fit_toml() {
@@ -159,10 +168,11 @@ const std::vector<double>& diameters() {
   return sizes;
 }
 
-void write_peer_case(const std::filesystem::path& folder) {
+void write_peer_case(const std::filesystem::path& folder, int velocities, bool state_sd) {
   const Start start;
-  write_whole_file(folder / "points.csv", points_csv());
-  write_whole_file(folder / "datapackage.json", datapackage_json());
+  write_whole_file(folder / "points.csv", points_csv(velocities, state_sd));
+  write_whole_file(folder / "datapackage.json",
+                   datapackage_json(state_sd ? field_json("restitution_sd", false) : ""));
   write_whole_file(folder / "fit.toml", fit_toml());
   write_whole_file(folder / "constants.json",
                    fmt::format("{{\"density\": {}, \"stiffness\": {}, \"reference_diameter\": {}, "
@@ -174,6 +184,50 @@ void write_peer_case(const std::filesystem::path& folder) {
                                "{},{},{},{},{},{}\n",
                                truth().density, truth().stiffness, reference_diameter, start.C_H,
                                start.C_A, start.f0));
+}
+
+void write_captures(const std::filesystem::path& rows, const std::filesystem::path& means,
+                    const std::vector<double>& factors, int impacts) {
+  constexpr double spread = 0.05;   // of the capture velocity from impact to impact
+  constexpr double reading = 0.02;  // sd of e of one impact
+  const std::string head = "series,diameter,incident_velocity,restitution,events,captured\n";
+  std::string single = head;
+  std::string counted = head;
+  RandomStream random(noise_seed, RandomPurpose::reconstruction, 0);
+  for (const double diameter : {diameters()[0], diameters()[2], diameters()[3]}) {
+    const double capture = true_capture_velocity(truth(), diameter);
+    for (const double factor : factors) {
+      const double velocity = three_digits(factor * capture);
+      const std::string place =
+          fmt::format("{0:.2f} um,{0:.2f},{1}", diameter / units::um, velocity);
+      double sum = 0.0;
+      int rebounds = 0;
+      for (int i = 0; i < impacts; ++i) {
+        const double alike = velocity * std::exp(spread * random.normal());
+        const double noise = reading * random.normal();
+        if (alike <= capture) {
+          single += place + ",,1,1\n";
+          continue;
+        }
+        const double e = std::max(0.001, true_restitution(truth(), diameter, alike) + noise);
+        single += fmt::format("{},{:.5f},1,0\n", place, e);
+        sum += e;
+        ++rebounds;
+      }
+      const std::string mean = rebounds > 0 ? fmt::format("{:.5f}", sum / rebounds) : "";
+      counted += fmt::format("{},{},{},{}\n", place, mean, impacts, impacts - rebounds);
+    }
+  }
+  const std::string package =
+      datapackage_json(field_json("events", true) + field_json("captured", true));
+  const std::string fit =
+      fmt::format("dataset = \".\"\n\n[parameters]\nf0 = {{ initial = {}, free = false }}\n",
+                  truth().adhesion_force);
+  for (const auto& [folder, points] : {std::pair(rows, single), std::pair(means, counted)}) {
+    write_whole_file(folder / "points.csv", points);
+    write_whole_file(folder / "datapackage.json", package);
+    write_whole_file(folder / "fit.toml", fit);
+  }
 }
 
 Case load_case(const std::filesystem::path& fit_file) {

@@ -28,10 +28,17 @@ struct Start {
   double f0 = 8.0;      ///< [N/m]
 };
 
-/// Writes the data set of the peer comparison into `folder`: 4 diameters x 15 velocities, C_H, C_A
+/// Writes the data set of the peer comparison into `folder`: 4 diameters x `velocities`, C_H, C_A
 /// and f0 free. `datapackage.json`, `points.csv` and `fit.toml` for recoil; the same `points.csv`,
 /// with `constants.json` and `constants.csv` (SI units), for the peers.
-void write_peer_case(const std::filesystem::path& folder);
+void write_peer_case(const std::filesystem::path& folder, int velocities = velocities_per_diameter,
+                     bool state_sd = true);
+
+/// Writes three diameters x `factors` times their capture velocities x `impacts`, whose capture
+/// velocities scatter by 5 % and whose readings of e err by 0.02, neither stated; f0 as it is in
+/// nature. Into `rows` one row for each impact, into `means` the same impacts as counted means.
+void write_captures(const std::filesystem::path& rows, const std::filesystem::path& means,
+                    const std::vector<double>& factors, int impacts);
 
 /// A fit, ready to run.
 struct Case {

@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "common.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "design.hpp"
@@ -225,6 +226,9 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   fmt::print("\nCost against size\n");
   results.update(measure_scaling(program, most_points));
 
+  fmt::print("\nCommon fits\n");
+  results["common"] = measure_common(build / "recoil", folder, root / "tests/benchmark");
+
   fmt::print("\nThe report of every fit that is shipped\n");
   results["shipped_fits"] = measure_shipped_fits(build / "recoil", root, folder / "pages");
 
@@ -263,7 +267,13 @@ int run(int count, char** words) {
   int left = static_cast<int>(arguments.size());
   benchmark::Initialize(&left, arguments.data());
   // A smaller largest case is for trying out: `recoil_benchmark 10000`, or no case at all:
-  // `recoil_benchmark impacts`.
+  // `recoil_benchmark impacts`, and the common fits alone: `recoil_benchmark common`.
+  if (left > 1 && std::string(arguments[1]) == "common") {
+    const fs::path build = program.parent_path();
+    fmt::print("\n{}", common_section(measure_common(build / "recoil", build / "benchmark",
+                                                     RECOIL_SOURCE_DIR "/tests/benchmark")));
+    return 0;
+  }
   const bool only_impacts = left > 1 && std::string(arguments[1]) == "impacts";
   const std::size_t most_points = left > 1 && !only_impacts ? std::stoul(arguments[1]) : 1000000;
   return run_all(program, RECOIL_SOURCE_DIR, most_points, only_impacts);

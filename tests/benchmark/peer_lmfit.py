@@ -1,9 +1,10 @@
 """The fit of recoil's benchmark as a careful user of lmfit and scipy would write it.
 
-    python3 peer_lmfit.py FOLDER
+    python3 peer_lmfit.py FOLDER [--first]
 
 FOLDER holds points.csv (diameter in um, velocities in m/s) and constants.json (SI units), which
-recoil_benchmark writes; peer_lmfit.json is left there. Nothing here comes from recoil: the model is
+recoil_benchmark writes; peer_lmfit.json is left there. --first runs the first setting once and no
+other. Nothing here comes from recoil: the model is
 written down anew from equation 5 of Li, Dunn & Brach (1999), J. Aerosol Sci. 30, 439-449,
 
     m n'' = -sqrt(r) K n^(3/2) (1 + C_H n') + 2 pi sqrt(r n) f0 (1 + C_A s),
@@ -157,7 +158,7 @@ def run(setting, points, start):
     name, method, rtol, epsfcn = setting
     parameters = parameters_of(start)
     options = {} if epsfcn is None else {"epsfcn": epsfcn}
-    begin = time.perf_counter()
+    begin, cpu_begin = time.perf_counter(), time.process_time()
     fit = lmfit.minimize(
         residuals,
         parameters,
@@ -166,13 +167,14 @@ def run(setting, points, start):
         scale_covar=False,
         **options,
     )
-    seconds = time.perf_counter() - begin
+    seconds, cpu_seconds = time.perf_counter() - begin, time.process_time() - cpu_begin
     return {
         "name": name,
         "method": method,
         "rtol": rtol,
         "epsfcn": epsfcn,
         "seconds": seconds,
+        "cpu_seconds": cpu_seconds,
         "evaluations": fit.nfev,
         "success": bool(fit.success),
         "chi2": fit.chisqr,
@@ -181,7 +183,7 @@ def run(setting, points, start):
     }
 
 
-def main(folder):
+def main(folder, only_first=False):
     with open(os.path.join(folder, "constants.json")) as file:
         constants = json.load(file)
     with open(os.path.join(folder, "points.csv"), newline="") as file:
@@ -190,13 +192,14 @@ def main(folder):
 
     fits = [run(SETTINGS[0], points, start)]
     seconds = [fits[0]["seconds"]]
-    while len(seconds) < REPEATS and sum(seconds) + seconds[0] < SECONDS_FOR_REPEATS:
+    while not only_first and len(seconds) < REPEATS and sum(seconds) + seconds[0] < SECONDS_FOR_REPEATS:
         seconds.append(run(SETTINGS[0], points, start)["seconds"])
     fits[0]["seconds"] = statistics.median(seconds)
     fits[0]["repeats"] = len(seconds)
-    fits += [run(setting, points, start) for setting in SETTINGS[1:]]
-    for setting, fit in zip(SETTINGS, fits):
-        fit.update(integration_errors(setting, points, fit["estimate"]))
+    if not only_first:
+        fits += [run(setting, points, start) for setting in SETTINGS[1:]]
+        for setting, fit in zip(SETTINGS, fits):
+            fit.update(integration_errors(setting, points, fit["estimate"]))
 
     result = {
         "versions": {
@@ -212,4 +215,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], "--first" in sys.argv[2:])

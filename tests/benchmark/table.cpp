@@ -256,6 +256,25 @@ std::string earlier_section(const Json& results, const Json& earlier) {
   return text + "\n";
 }
 
+std::string common_section(const Json& rows) {
+  std::string text =
+      "## Common fits\n\nCPU time of `recoil fit --threads 1`, the whole program with all "
+      "intervals, median of three runs. lmfit: one fit of the same points by its careful setting, "
+      "without intervals and without the start of the process.\n\n"
+      "| `recoil fit` of | CPU time | lmfit | ratio |\n|---|---|---|---|\n";
+  for (const Json& row : rows) {
+    const double seconds = row.at("seconds");
+    text += fmt::format("| {} | {} |", row.at("what").get<std::string>(), time_text(seconds));
+    if (row.contains("lmfit_seconds")) {
+      const double lmfit = row.at("lmfit_seconds");
+      text += fmt::format(" {} | {} |\n", time_text(lmfit), ratio_text(lmfit / seconds));
+    } else {
+      text += " | |\n";
+    }
+  }
+  return text + "\n";
+}
+
 std::string short_table(const Json& results) {
   const Json& impact = results.at("impact_with_gradient");
   const Json& bootstrap = results.at("bootstrap");
@@ -306,7 +325,8 @@ std::string benchmark_page(const Json& results, const Json& earlier) {
   return std::string("# How fast\n\n") + begin_marker + short_table(results) + end_marker + "\n" +
          earlier_section(results, earlier) + impact_section(results.at("impact_with_gradient")) +
          bootstrap_section(results.at("bootstrap")) + peer_section(results.at("peer")) +
-         scaling_section(results) + shipped_section(results.at("shipped_fits"));
+         common_section(results.at("common")) + scaling_section(results) +
+         shipped_section(results.at("shipped_fits"));
 }
 
 namespace {

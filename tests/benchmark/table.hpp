@@ -10,6 +10,9 @@ namespace recoil::bench {
 /// command, and what is a ratio and what is extrapolated. Ends with a line break.
 std::string short_table(const Json& results);
 
+/// The rows of `measure_common` under a heading.
+std::string common_section(const Json& rows);
+
 /// What an earlier run of `./run bench` measured (tests/benchmark/earlier.json) beside what this
 /// one did, where both have a figure.
 std::string earlier_section(const Json& results, const Json& earlier);
