@@ -292,13 +292,12 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
 void add_cluster(Program& program) {
   const Command command = program.command(
       "cluster", "write scripts that run a command in shards on a cluster and merge the shards");
-  command.footer(
-      "Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit "
-      "the\n"
-      "scripts. All machines must find the folder, the program and the data under the same paths.\n"
-      "\n"
-      "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
-      "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
+  command.footer(R"(
+Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
+scripts. All machines must find the folder, the program and the data under the same paths.
+
+  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big
+  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big)");
   const auto flags = std::make_shared<ClusterFlags>();
   command.option("SYSTEM", flags->system, "slurm, or parallel (GNU parallel)")
       .required()

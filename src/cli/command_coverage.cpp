@@ -95,7 +95,8 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
 Pieces pieces_of(const Prepared& ready) {
   return {"coverage", ready.origin.pieces, ready.coverage.uncertainty.threads,
           [&ready](std::size_t i) {
-            return json_of(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i));
+            return as_json(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i),
+                           NonFinite::word);
           }};
 }
 
@@ -121,8 +122,9 @@ void run(const Options& options) {
   }
   resumable(pieces, *kept);
   std::vector<CoverageTrial> trials;
-  for (std::size_t i = 0; i < pieces.count; ++i)
-    trials.push_back(coverage_trial_of(kept->find(i).value()));
+  for (std::size_t i = 0; i < pieces.count; ++i) {
+    trials.push_back(value_from<CoverageTrial>(kept->find(i).value()));
+  }
   const CoverageResult result = count_coverage(ready->spec, ready->truth, ready->coverage, trials);
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {
@@ -142,17 +144,15 @@ void run(const Options& options) {
 void add_coverage(Program& program) {
   const Command command =
       program.command("coverage", "measure how often the intervals contain the truth");
-  command.footer(
-      "Simulates data sets of the same design with the fitted values as the truth, fits each of "
-      "them,\n"
-      "and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C "
-      "keeps\n"
-      "finished work, and the same command then continues.\n"
-      "\n"
-      "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n"
-      "\n"
-      "The study program covers grids of designs and several fits: ./run study, or\n"
-      "recoil_study --help.");
+  command.footer(R"(
+Simulates data sets of the same design with the fitted values as the truth, fits each of them,
+and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
+finished work, and the same command then continues.
+
+  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md
+
+The study program covers grids of designs and several fits: ./run study, or
+recoil_study --help.)");
   const auto options = std::make_shared<Options>();
   add_fit_file(command, options->fit_file);
   command.option("--datasets", options->datasets, "simulated data sets")

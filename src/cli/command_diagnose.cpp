@@ -138,22 +138,19 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 void add_diagnose(Program& program) {
   const Command command = program.command(
       "diagnose", "find what the model gets wrong and why, and what an extended model gains");
-  command.footer(
-      "Tests the residuals of the fit for structure and tries every mechanism of the catalogue, "
-      "alone\n"
-      "and in pairs. The verdict is one of\n"
-      "  adequate        the residuals show no structure\n"
-      "  cause_named     exactly one cause of the catalogue explains the misfit\n"
-      "  not_separable   several causes explain it; recoil lists them and proposes an experiment\n"
-      "  unexplained     no cause of the catalogue explains it, or the errors are larger than "
-      "stated\n"
-      "With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a "
-      "fit\n"
-      "file of the extended model). Ctrl-C keeps finished work in DIR; the same command then\n"
-      "continues.\n"
-      "\n"
-      "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
-      "  recoil fit diagnosis/extended.toml");
+  command.footer(R"(
+Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
+and in pairs. The verdict is one of
+  adequate        the residuals show no structure
+  cause_named     exactly one cause of the catalogue explains the misfit
+  not_separable   several causes explain it; recoil lists them and proposes an experiment
+  unexplained     no cause of the catalogue explains it, or the errors are larger than stated
+With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a fit
+file of the extended model). Ctrl-C keeps finished work in DIR; the same command then
+continues.
+
+  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis
+  recoil fit diagnosis/extended.toml)");
   const auto flags = std::make_shared<DiagnoseFlags>();
   add_fit_file(command, flags->fit);
   command.option("--out", flags->out, "folder for the results (default: nothing is written)")

@@ -117,13 +117,9 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
                        "state one: --velocity MIN,MAX");
     }
   } else {
+    require_range(options.velocity);
     request.slowest = options.velocity[0];
     request.fastest = options.velocity[1];
-    if (!(request.slowest < request.fastest)) {
-      throw InputError(
-          {}, fmt::format("--velocity {:g},{:g} is not a range", request.slowest, request.fastest),
-          "the first number must be the smaller one", "for example --velocity 1,50");
-    }
   }
   const std::vector<double> sizes = distinct_diameters(dataset);
   request.diameter =
@@ -169,8 +165,6 @@ void require_stock_model(const ExportOptions& options, ExportTarget target) {
   throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
                    "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
-
-void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
 
 void run_export(const ExportOptions& options) {
   const ExportTarget target = *value_named<ExportTarget>(options.to);
@@ -238,16 +232,14 @@ void run_export(const ExportOptions& options) {
 void add_export(Program& program) {
   const Command command = program.command(
       "export", "write a fitted impact as input for another program, or as a table");
-  command.footer(
-      "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and\n"
-      "YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its "
-      "own\n"
-      "contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) "
-      "with\n"
-      "captures. Every file states what it leaves out.\n"
-      "\n"
-      "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
-      "  lmp -in my-lammps/impact.lammps -var V 2.4");
+  command.footer(R"(
+Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
+YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its own
+contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) with
+captures. Every file states what it leaves out.
+
+  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps
+  lmp -in my-lammps/impact.lammps -var V 2.4)");
   const auto options = std::make_shared<ExportOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--to", options->to, "the program").required().one_of(all_names<ExportTarget>());

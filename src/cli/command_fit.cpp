@@ -8,7 +8,6 @@
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "report/fit_report.hpp"
-#include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
@@ -76,13 +75,12 @@ void run_fit(const FitFlags& flags) {
 void add_fit(Program& program) {
   const Command command =
       program.command("fit", "fit all points, with intervals and the two-point comparison");
-  command.footer(
-      "Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the\n"
-      "data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in "
-      "DIR;\n"
-      "the same command then continues.\n"
-      "\n"
-      "  recoil fit fits/dahneke1975-quartz.toml --out results");
+  command.footer(R"(
+Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the
+data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in DIR;
+the same command then continues.
+
+  recoil fit fits/dahneke1975-quartz.toml --out results)");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_file(command, flags->fit_file);
   command.option("--out", flags->out, "folder for fit.json (default: nothing is written)")

@@ -49,12 +49,7 @@ void print_topic(const Program& program, const std::string& topic) {
 /// Brings the tables that are made from the code up to date in every page of
 /// `folder`.
 void write_pages(const Program& program, const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> pages;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  }
-  std::sort(pages.begin(), pages.end());
-  for (const std::filesystem::path& page : pages) {
+  for (const std::filesystem::path& page : files_in(folder, ".md")) {
     const std::string before = read_text_file(page);
     const std::string after = with_manual_tables(before, page.string(), program);
     if (after == before) continue;
@@ -76,11 +71,11 @@ void add_help(Program& program) {
   command.option("--write-docs", options->folder, "the tables that are made from the code")
       .takes("DIR")
       .hidden();
-  command.footer(
-      "The program contains the pages of docs/.\n"
-      "\n"
-      "  recoil help\n"
-      "  recoil help noise");
+  command.footer(R"(
+The program contains the pages of docs/.
+
+  recoil help
+  recoil help noise)");
   command.runs([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);

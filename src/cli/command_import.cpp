@@ -96,25 +96,21 @@ void add_import(Program& program) {
   const Command command = program.command(
       "import",
       "make a dataset folder from digitised points, drop heights, bounce times or any table");
-  command.footer(
-      "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
-      "(between\n"
-      "bounces), track (heights over time) and csv. --map assigns columns to quantities, with "
-      "units: um, mm, cm, m, in; m/s, km/h;\n"
-      "s, ms; % (recoil help data). On a terminal, import asks for what is missing. It overwrites "
-      "points only with --replace.\n"
-      "\n"
-      "  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \\\n"
-      "    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like "
-      "datasets/wall1990-mica\n"
-      "  recoil import drops.csv --format heights --into datasets/ball --diameter 40mm \\\n"
-      "    --map drop_height=h1:cm,rebound_height=h2:cm --particle ball.json --surface floor.json\n"
-      "  recoil import bounces.csv --format intervals --into datasets/ball2 --diameter 40mm \\\n"
-      "    --map launch=run,interval=t:s --time-error 1ms --like datasets/ball\n"
-      "  recoil import ball.txt --format track --into datasets/ball3 --diameter 40mm \\\n"
-      "    --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete\n"
-      "  recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \\\n"
-      "    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run");
+  command.footer(R"(
+Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
+bounces), track (heights over time) and csv. --map assigns columns to quantities, with units: um, mm, cm, m, in; m/s, km/h;
+s, ms; % (recoil help data). On a terminal, import asks for what is missing. It overwrites points only with --replace.
+
+  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \
+    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like datasets/wall1990-mica
+  recoil import drops.csv --format heights --into datasets/ball --diameter 40mm \
+    --map drop_height=h1:cm,rebound_height=h2:cm --particle ball.json --surface floor.json
+  recoil import bounces.csv --format intervals --into datasets/ball2 --diameter 40mm \
+    --map launch=run,interval=t:s --time-error 1ms --like datasets/ball
+  recoil import ball.txt --format track --into datasets/ball3 --diameter 40mm \
+    --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete
+  recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \
+    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)");
   const auto flags = std::make_shared<ImportFlags>();
   ImportRequest& r = flags->request;
   command.option("FILE", flags->file, "what to import").required();

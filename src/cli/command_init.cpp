@@ -210,16 +210,15 @@ void run_init(InitOptions options) {
 
 void add_init(Program& program) {
   const Command command = program.command("init", "make a new dataset folder and a fit file");
-  command.footer(
-      "On a terminal, init asks for what the options leave out. Without --points the folder gets\n"
-      "example points, which the model computes and which are labelled synthetic. Nothing is\n"
-      "overwritten. For figures, drop heights and bounce times: recoil help import.\n"
-      "\n"
-      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
-      "  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \\\n"
-      "    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 "
-      "\\\n"
-      "    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28");
+  command.footer(R"(
+On a terminal, init asks for what the options leave out. Without --points the folder gets
+example points, which the model computes and which are labelled synthetic. Nothing is
+overwritten. For figures, drop heights and bounce times: recoil help import.
+
+  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
+  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \
+    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 \
+    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28)");
   const auto options = std::make_shared<InitOptions>();
   command.option("DIR", options->folder, "the new folder").required();
   command

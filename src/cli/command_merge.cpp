@@ -58,14 +58,14 @@ void merge(const MergeFlags& flags) {
 void add_merge(Program& program) {
   const Command command =
       program.command("merge", "combine the shards of a command into one result");
-  command.footer(
-      "Prints and writes to DIR exactly what the command without --shard would have printed and\n"
-      "written. merge rejects shards that come from other inputs, seeds, commands or builds of\n"
-      "recoil. It lists missing shards in the form of Slurm's option --array.\n"
-      "\n"
-      "  recoil fit my.toml --shard 1/2 --out parts      on one machine\n"
-      "  recoil fit my.toml --shard 2/2 --out parts      on another\n"
-      "  recoil merge parts");
+  command.footer(R"(
+Prints and writes to DIR exactly what the command without --shard would have printed and
+written. merge rejects shards that come from other inputs, seeds, commands or builds of
+recoil. It lists missing shards in the form of Slurm's option --array.
+
+  recoil fit my.toml --shard 1/2 --out parts      on one machine
+  recoil fit my.toml --shard 2/2 --out parts      on another
+  recoil merge parts)");
   const auto flags = std::make_shared<MergeFlags>();
   command.option("DIR", flags->folder, "the folder of the shards").required();
   command.flag("--missing", flags->missing,

@@ -273,24 +273,20 @@ void add_pair(Program& program) {
   const Command app = program.command("pair",
                                       "find impacts in the passages that a phase Doppler "
                                       "instrument records, and average them into points");
-  app.footer(
-      "A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. "
-      "The\n"
-      "time between is the time of free flight to the surface and back; both velocities and the\n"
-      "height of the plane determine it. recoil finds the height at which most passages agree, "
-      "then\n"
-      "pairs passages by flight time and diameter, each with at most one other. Rebounds that "
-      "come\n"
-      "down again are later impacts and are left out. Velocities are corrected to the surface,\n"
-      "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. recoil estimates how many of "
-      "the\n"
-      "passages without a rebound were lost, were too slow to return, and were captured.\n"
-      "\n"
-      "  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv\n"
-      "  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \\\n"
-      "      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \\\n"
-      "      --histograms my-run/histograms\n"
-      "  recoil check my-run");
+  app.footer(R"(
+A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. The
+time between is the time of free flight to the surface and back; both velocities and the
+height of the plane determine it. recoil finds the height at which most passages agree, then
+pairs passages by flight time and diameter, each with at most one other. Rebounds that come
+down again are later impacts and are left out. Velocities are corrected to the surface,
+v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. recoil estimates how many of the
+passages without a rebound were lost, were too slow to return, and were captured.
+
+  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv
+  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \
+      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \
+      --histograms my-run/histograms
+  recoil check my-run)");
   const auto command = std::make_shared<PairCommand>();
   add_input_options(app, *command);
   add_search_options(app, *command);

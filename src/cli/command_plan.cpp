@@ -42,12 +42,10 @@ void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
                  PlanOptions& options) {
   for (const double diameter : flags.diameters) options.diameters.push_back(diameter * units::um);
   if (!flags.velocity.empty()) {
+    require_range(flags.velocity);
     options.slowest = flags.velocity[0];
     options.fastest = flags.velocity[1];
-    if (options.slowest < options.fastest) return;
-    throw InputError(
-        {}, fmt::format("--velocity {:g},{:g} is not a range", options.slowest, options.fastest),
-        "the first number must be the smaller one", "for example --velocity 1,50");
+    return;
   }
   double slowest = INFINITY;
   double fastest = 0.0;
@@ -179,19 +177,16 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
 void add_plan(Program& program) {
   const Command command = program.command(
       "plan", "plan an experiment: which velocities and sizes to measure, and how often");
-  command.footer(
-      "Needs a fit file and datasets with materials; the datasets need no points yet. The plan\n"
-      "determines the free parameters and the capture velocities with the fewest impacts, and "
-      "states\n"
-      "the errors to expect. It depends on the assumed parameters: repeat it with --parameters "
-      "after\n"
-      "the first results. With --out it writes plan.html (a page to read), plan.json and "
-      "points.csv\n"
-      "(to be filled in).\n"
-      "\n"
-      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
-      "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
-      "      --out my-plan");
+  command.footer(R"(
+Needs a fit file and datasets with materials; the datasets need no points yet. The plan
+determines the free parameters and the capture velocities with the fewest impacts, and states
+the errors to expect. It depends on the assumed parameters: repeat it with --parameters after
+the first results. With --out it writes plan.html (a page to read), plan.json and points.csv
+(to be filled in).
+
+  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
+  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \
+      --out my-plan)");
   const auto flags = std::make_shared<PlanFlags>();
   add_fit_file(command, flags->fit_file);
   command

@@ -21,13 +21,13 @@ struct PredictOptions {
   std::string unit;
   std::string dataset;
   std::string out;
-  double height = -1.0;  // [mm]; below zero: not stated
+  std::optional<double> height;  // [mm]
   bool midpoints = false;
   bool json = false;
   AnalysisFlags analysis;
 };
 
-void predict_sizes(const PredictOptions& options) {
+void run_predict(const PredictOptions& options) {
   if (!options.out.empty()) require_writable_folder(options.out);
   const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
   const AnalysisOptions resolved = options.analysis.resolved();
@@ -39,18 +39,11 @@ void predict_sizes(const PredictOptions& options) {
     claim.emplace(out / "predict.json");
   }
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
-  const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
-  analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets, assess);
-
-  PolydisperseOptions mix;
-  mix.level = assess.level;
-  mix.threads = assess.threads;
-  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
-  if (options.height >= 0.0) mix.probe_height = options.height * units::mm;
-  if (options.midpoints) mix.parts = 1;
+  choose_dataset(analysis.datasets, options.dataset);  // complains before the bootstrap
+  analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets,
+                                        uncertainty_options(analysis.spec, resolved));
   const PolydispersePrediction mixture =
-      predict_mixture(analysis.fitted, dataset, analysis.uncertainty.bootstrap, sizes, mix);
+      predict_sizes(analysis, sizes, options.height, options.midpoints, options.dataset);
   const std::string result = json_prediction(analysis, mixture);
   const std::string printed = options.json ? result : text_prediction(analysis, mixture);
   if (!options.out.empty()) {
@@ -61,10 +54,10 @@ void predict_sizes(const PredictOptions& options) {
         printed);
   }
   print_text("{}", printed);
-  if (options.height < 0.0 && !sizes.probe_height) {
+  if (!options.height && !sizes.probe_height) {
     print_text(options.json ? stderr : stdout,
                "note: without --height, the {:g} mm of Li, Dunn & Brach (1999) is used\n",
-               mix.probe_height / units::mm);
+               mixture.probe_height / units::mm);
   }
 }
 
@@ -73,15 +66,12 @@ void predict_sizes(const PredictOptions& options) {
 void add_predict(Program& program) {
   const Command command =
       program.command("predict", "predict the mean restitution of a mixture of sizes");
-  command.footer(
-      "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
-      "and\n"
-      "count) under three conventions: captured spheres count as e = 0; captured spheres are left\n"
-      "out; captured spheres and those too slow to return to the measuring plane are left out. "
-      "With --out it writes predict.csv, predict.json and a picture.\n"
-      "\n"
-      "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
-      "datasets/li1999-sst65-silicon/sizes.csv");
+  command.footer(R"(
+Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter and
+count) under three conventions: captured spheres count as e = 0; captured spheres are left
+out; captured spheres and those too slow to return to the measuring plane are left out. With --out it writes predict.csv, predict.json and a picture.
+
+  recoil predict fits/li1999-sst65-silicon.toml --sizes datasets/li1999-sst65-silicon/sizes.csv)");
   const auto options = std::make_shared<PredictOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--sizes", options->sizes, "the size distribution (CSV)").required().takes("FILE");
@@ -102,7 +92,7 @@ void add_predict(Program& program) {
       .takes("DIR");
   add_analysis_flags(command, options->analysis);
   add_json_flag(command, options->json);
-  command.runs([options] { predict_sizes(*options); });
+  command.runs([options] { run_predict(*options); });
 }
 
 }  // namespace recoil

@@ -33,18 +33,13 @@ struct ReportOptions {
 };
 
 std::vector<fs::path> fits_to_report(const ReportOptions& options) {
-  std::vector<fs::path> files(options.fits.begin(), options.fits.end());
-  if (!files.empty()) return files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator("fits", failed)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
+  if (!options.fits.empty()) return {options.fits.begin(), options.fits.end()};
+  std::vector<fs::path> files = files_in("fits", ".toml");
   if (files.empty()) {
     throw InputError({"fits"}, "there are no fit files here",
                      "without FIT, recoil report uses every fits/*.toml",
                      "name the fit files, or run this in the project's folder");
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -215,13 +210,12 @@ void report(const ReportOptions& options) {
 
 void add_report(Program& program) {
   const Command command = program.command("report", "write a page for every fit, and an index");
-  command.footer(
-      "Writes one page per fit and index.html. A page needs no other file. Pages whose inputs "
-      "have\n"
-      "not changed are kept.\n"
-      "\n"
-      "  recoil report                      every fits/*.toml into reports/\n"
-      "  recoil report my.toml --out pages  one fit");
+  command.footer(R"(
+Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
+not changed are kept.
+
+  recoil report                      every fits/*.toml into reports/
+  recoil report my.toml --out pages  one fit)");
   const auto options = std::make_shared<ReportOptions>();
   add_fit_files(command, options->fits, "fit files (default: fits/*.toml)");
   command.option("--out", options->out, "folder for the pages").shows_default().takes("DIR");

@@ -23,10 +23,6 @@ namespace {
 
 constexpr std::size_t indent = 2;  // of tables
 
-void print_line(const std::string& words) {
-  print_text("{}\n", wrap(words, terminal_columns, indent));
-}
-
 struct SimulateOptions {
   std::string fit_file;
   double velocity = 0.0;  // [m/s]
@@ -264,11 +260,10 @@ void simulate(const SimulateOptions& options) {
 void add_simulate(Program& program) {
   const Command command =
       program.command("simulate", "simulate one impact, with its energy budget and force history");
-  command.footer(
-      "Uses the initial values of the fit file, or with --parameters the values of a fit.json.\n"
-      "\n"
-      "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history "
-      "forces.csv");
+  command.footer(R"(
+Uses the initial values of the fit file, or with --parameters the values of a fit.json.
+
+  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)");
   const auto options = std::make_shared<SimulateOptions>();
   add_fit_file(command, options->fit_file);
   command.option("--velocity", options->velocity, "incident velocity [m/s]")

@@ -74,6 +74,16 @@ inline Importance importance_of(bool verbose) {
   return verbose ? Importance::detail : Importance::answer;
 }
 
+/// Text on standard output, in lines of the terminal.
+void print_line(const std::string& words);
+
+/// The option --velocity MIN,MAX. @throws InputError unless the second is the larger one
+void require_range(const std::vector<double>& velocity);
+
+/// The files with this extension in a folder, sorted; none where it cannot be read.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
+                                            const std::string& extension);
+
 /// Writes the files of a result. If they cannot be written the result is printed, so that the work
 /// is not lost, before the error is thrown. @throws InputError
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result);

@@ -18,13 +18,12 @@ namespace recoil {
 void add_check(Program& program) {
   const Command command =
       program.command("check", "validate a dataset folder and show its contents");
-  command.footer(
-      "Reads datapackage.json and the points that it names, converts the units and prints the "
-      "result.\n"
-      "If a file contains an error, recoil prints one line:\n"
-      "  file:line:column: problem (why it is one); suggestion\n"
-      "\n"
-      "  recoil check datasets/dahneke1975-quartz");
+  command.footer(R"(
+Reads datapackage.json and the points that it names, converts the units and prints the result.
+If a file contains an error, recoil prints one line:
+  file:line:column: problem (why it is one); suggestion
+
+  recoil check datasets/dahneke1975-quartz)");
   const auto folder = std::make_shared<std::string>();
   command.option("DIR", *folder, "the dataset's folder").required();
   command.runs([folder] { print_text("{}", dataset_text(load_dataset(*folder))); });
@@ -33,13 +32,11 @@ void add_check(Program& program) {
 void add_compare(Program& program) {
   const Command command = program.command(
       "compare", "compare fits of the same data, for example with different laws of adhesion");
-  command.footer(
-      "Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with "
-      "stated\n"
-      "standard deviations. The column \"held out\" is the error at diameters left out of the "
-      "fit.\n"
-      "\n"
-      "  recoil compare ring/fit.json jkr/fit.json dmt/fit.json");
+  command.footer(R"(
+Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with stated
+standard deviations. The column "held out" is the error at diameters left out of the fit.
+
+  recoil compare ring/fit.json jkr/fit.json dmt/fit.json)");
   const auto files = std::make_shared<std::vector<std::string>>();
   command.option("FIT.json", *files, "two or more fit.json of the same datasets")
       .required()
@@ -56,13 +53,12 @@ void add_compare(Program& program) {
 void add_materials(Program& program) {
   const Command command =
       program.command("materials", "list the materials that --particle and --surface know by name");
-  command.footer(
-      "import and init take --particle NAME and --surface NAME; NAME,key=value changes a\n"
-      "constant. The constants enter the dataset with their errors.\n"
-      "\n"
-      "  recoil import drops.csv --format heights --into ball --particle steel --surface glass "
-      "...\n"
-      "  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70");
+  command.footer(R"(
+import and init take --particle NAME and --surface NAME; NAME,key=value changes a
+constant. The constants enter the dataset with their errors.
+
+  recoil import drops.csv --format heights --into ball --particle steel --surface glass ...
+  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70)");
   command.runs([] {
     print_text("{:<16}{:>16}{:>20}{:>18}  {}\n", "name", "density [kg/m3]", "E [GPa]", "nu", "");
     for (const TabledMaterial& one : tabled_materials()) {

@@ -80,7 +80,7 @@ class Command {
                 const std::string& meaning) const;
   Option flag(const std::string& name, bool& value, const std::string& meaning) const;
 
-  /// Text after the list of options.
+  /// Text after the list of options. It may begin on a line of its own.
   void footer(const std::string& text) const;
   /// Called once the command line was read.
   void runs(const std::function<void()>& action) const;
