@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/program.hpp"
+#include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
@@ -63,20 +63,29 @@ void add_predictions(Analysis& analysis) {
   CaptureComparisonOptions compare;
   compare.level = assessed.options.level;
   compare.threads = assessed.options.threads;
-  PolydisperseOptions mix;
-  mix.level = assessed.options.level;
-  mix.threads = assessed.options.threads;
   for (std::size_t d = 0; d < analysis.datasets.size(); ++d) {
     const auto sizes = sizes_of_dataset(analysis.datasets[d].folder);
     if (!sizes) continue;
-    mix.probe_height = sizes->probe_height.value_or(PolydisperseOptions{}.probe_height);
     analysis.mixtures.push_back(
-        predict_mixture(analysis.fitted, d, assessed.bootstrap, *sizes, mix));
+        predict_sizes(analysis, *sizes, std::nullopt, false, analysis.datasets[d].id));
     compare.include.emplace_back(d, sizes->smallest);
     compare.include.emplace_back(d, sizes->largest);
   }
   analysis.captures =
       compare_captures(analysis.fitted, analysis.datasets, assessed.bootstrap, compare);
+}
+
+PolydispersePrediction predict_sizes(const Analysis& analysis, const MeasuredSizes& sizes,
+                                     std::optional<double> height_mm, bool midpoints,
+                                     const std::string& dataset) {
+  PolydisperseOptions mix;
+  mix.level = analysis.uncertainty.options.level;
+  mix.threads = analysis.uncertainty.options.threads;
+  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
+  if (height_mm) mix.probe_height = *height_mm * units::mm;
+  if (midpoints) mix.parts = 1;
+  return predict_mixture(analysis.fitted, choose_dataset(analysis.datasets, dataset),
+                         analysis.uncertainty.bootstrap, sizes, mix);
 }
 
 FitInputs load_inputs(const std::filesystem::path& fit_file) {

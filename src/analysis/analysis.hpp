@@ -89,6 +89,15 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
 /// and the older capture models.
 void add_predictions(Analysis& analysis);
 
+/// The mixture of `sizes` under the fit, with bands of its bootstrap.
+/// @param height_mm of the measuring plane [mm], where it is not that of `sizes`
+/// @param midpoints all spheres of a bin are at its midpoint
+/// @param dataset id; the first where it is empty
+/// @throws InputError
+PolydispersePrediction predict_sizes(const Analysis& analysis, const MeasuredSizes& sizes,
+                                     std::optional<double> height_mm, bool midpoints,
+                                     const std::string& dataset);
+
 /// The index of the dataset named `id`; 0 if `id` is empty.
 /// @throws InputError if there is no such dataset
 std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);

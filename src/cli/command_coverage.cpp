@@ -95,7 +95,8 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
 Pieces pieces_of(const Prepared& ready) {
   return {"coverage", ready.origin.pieces, ready.coverage.uncertainty.threads,
           [&ready](std::size_t i) {
-            return json_of(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i));
+            return as_json(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i),
+                           NonFinite::word);
           }};
 }
 
@@ -121,8 +122,9 @@ void run(const Options& options) {
   }
   resumable(pieces, *kept);
   std::vector<CoverageTrial> trials;
-  for (std::size_t i = 0; i < pieces.count; ++i)
-    trials.push_back(coverage_trial_of(kept->find(i).value()));
+  for (std::size_t i = 0; i < pieces.count; ++i) {
+    trials.push_back(value_from<CoverageTrial>(kept->find(i).value()));
+  }
   const CoverageResult result = count_coverage(ready->spec, ready->truth, ready->coverage, trials);
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {

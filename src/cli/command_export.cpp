@@ -117,9 +117,9 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
                        "state one: --velocity MIN,MAX");
     }
   } else {
+    require_range(options.velocity);
     request.slowest = options.velocity[0];
     request.fastest = options.velocity[1];
-    require_range(options.velocity);
   }
   const std::vector<double> sizes = distinct_diameters(dataset);
   request.diameter =

@@ -7,7 +7,6 @@
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "report/fit_report.hpp"
-#include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"

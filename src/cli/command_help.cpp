@@ -48,12 +48,7 @@ void print_topic(const Program& program, const std::string& topic) {
 
 /// Updates the tables that the code makes in every page of `folder`.
 void write_pages(const Program& program, const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> pages;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  }
-  std::sort(pages.begin(), pages.end());
-  for (const std::filesystem::path& page : pages) {
+  for (const std::filesystem::path& page : files_in(folder, ".md")) {
     const std::string before = read_text_file(page);
     const std::string after = with_manual_tables(before, page.string(), program);
     if (after == before) continue;

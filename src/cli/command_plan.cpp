@@ -41,9 +41,10 @@ void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
                  PlanOptions& options) {
   for (const double diameter : flags.diameters) options.diameters.push_back(diameter * units::um);
   if (!flags.velocity.empty()) {
+    require_range(flags.velocity);
     options.slowest = flags.velocity[0];
     options.fastest = flags.velocity[1];
-    return require_range(flags.velocity);
+    return;
   }
   double slowest = INFINITY;
   double fastest = 0.0;

@@ -20,13 +20,13 @@ struct PredictOptions {
   std::string unit;
   std::string dataset;
   std::string out;
-  double height = -1.0;  // [mm]; below zero: not stated
+  std::optional<double> height;  // [mm]
   bool midpoints = false;
   bool json = false;
   AnalysisFlags analysis;
 };
 
-void predict_sizes(const PredictOptions& options) {
+void run_predict(const PredictOptions& options) {
   if (!options.out.empty()) require_writable_folder(options.out);
   const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
   const AnalysisOptions resolved = options.analysis.resolved();
@@ -38,18 +38,11 @@ void predict_sizes(const PredictOptions& options) {
     claim.emplace(out / "predict.json");
   }
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
-  const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
-  analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets, assess);
-
-  PolydisperseOptions mix;
-  mix.level = assess.level;
-  mix.threads = assess.threads;
-  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
-  if (options.height >= 0.0) mix.probe_height = options.height * units::mm;
-  if (options.midpoints) mix.parts = 1;
+  choose_dataset(analysis.datasets, options.dataset);  // complains before the bootstrap
+  analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets,
+                                        uncertainty_options(analysis.spec, resolved));
   const PolydispersePrediction mixture =
-      predict_mixture(analysis.fitted, dataset, analysis.uncertainty.bootstrap, sizes, mix);
+      predict_sizes(analysis, sizes, options.height, options.midpoints, options.dataset);
   const std::string result = json_prediction(analysis, mixture);
   const std::string printed = options.json ? result : text_prediction(analysis, mixture);
   if (!options.out.empty()) {
@@ -60,10 +53,10 @@ void predict_sizes(const PredictOptions& options) {
         printed);
   }
   print_text("{}", printed);
-  if (options.height < 0.0 && !sizes.probe_height) {
+  if (!options.height && !sizes.probe_height) {
     print_text(options.json ? stderr : stdout,
                "note: without --height, the {:g} mm of Li, Dunn & Brach (1999) is used\n",
-               mix.probe_height / units::mm);
+               mixture.probe_height / units::mm);
   }
 }
 
@@ -99,7 +92,7 @@ writes predict.csv, predict.json and a picture.
       .takes("DIR");
   add_analysis_flags(command, options->analysis);
   add_json_flag(command, options->json);
-  command.runs([options] { predict_sizes(*options); });
+  command.runs([options] { run_predict(*options); });
 }
 
 }  // namespace recoil

@@ -33,18 +33,13 @@ struct ReportOptions {
 };
 
 std::vector<fs::path> fits_to_report(const ReportOptions& options) {
-  std::vector<fs::path> files(options.fits.begin(), options.fits.end());
-  if (!files.empty()) return files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator("fits", failed)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
+  if (!options.fits.empty()) return {options.fits.begin(), options.fits.end()};
+  std::vector<fs::path> files = files_in("fits", ".toml");
   if (files.empty()) {
     throw InputError({"fits"}, "there are no fit files here",
                      "without FIT, recoil report uses every fits/*.toml",
                      "name the fit files, or run this in the project's folder");
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 

@@ -19,12 +19,9 @@ namespace {
 
 std::vector<std::string> fits_beside(const fs::path& file) {
   std::vector<std::string> names;
-  std::error_code failed;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  for (const fs::path& fit : files_in(file.has_parent_path() ? file.parent_path() : ".", ".toml")) {
+    names.push_back(fit.filename().string());
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 
@@ -95,6 +92,24 @@ void add_verbose_flag(const Command& command, bool& verbose) {
   command.flag("--verbose", verbose, "print all details");
 }
 
+void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
+
+void require_range(const std::vector<double>& velocity) {
+  if (velocity[0] < velocity[1]) return;
+  throw InputError({}, fmt::format("--velocity {:g},{:g} is not a range", velocity[0], velocity[1]),
+                   "the first number must be the smaller one", "for example --velocity 1,50");
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
   try {
     write_whole_files(files);
@@ -103,14 +118,6 @@ void write_or_print(const std::vector<WholeFile>& files, const std::string& resu
     throw;
   }
 }
-
-void require_range(const std::vector<double>& velocity) {
-  if (velocity[0] < velocity[1]) return;
-  throw InputError({}, fmt::format("--velocity {:g},{:g} is not a range", velocity[0], velocity[1]),
-                   "the first number must be the smaller one", "for example --velocity 1,50");
-}
-
-void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
 
 void add_shared_commands(Program& program) {
   add_fit(program);

@@ -72,6 +72,10 @@ inline Importance importance_of(bool verbose) {
   return verbose ? Importance::detail : Importance::answer;
 }
 
+/// The files with this extension in a folder, sorted; empty if the folder cannot be read.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
+                                            const std::string& extension);
+
 /// Writes the files of a result. If they cannot be written, it prints the result, so that it is not
 /// lost. @throws InputError if they cannot be written
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result);

@@ -234,7 +234,9 @@ Option Command::flag(const std::string& name, bool& value, const std::string& me
   return Option(app_->add_flag(name, value, meaning));
 }
 
-void Command::footer(const std::string& text) const { app_->footer(text); }
+void Command::footer(const std::string& text) const {
+  app_->footer(text.substr(text.starts_with('\n') ? 1 : 0));
+}
 
 void Command::runs(const std::function<void()>& action) const { app_->callback(action); }
 

@@ -87,34 +87,6 @@ std::vector<CoverageCell> count(const std::vector<CoverageTrial>& trials,
   return cells;
 }
 
-Json rows_json(const std::vector<CoverageTrial::Row>& rows) {
-  Json all = Json::array();
-  for (const CoverageTrial::Row& row : rows) {
-    Json cells = Json::array();
-    for (const auto& cell : row.cells) {
-      cells.push_back(cell ? Json::array({cell->held, cell->width}) : Json(nullptr));
-    }
-    all.push_back(Json::array({row.identifiable, row.deviation, std::move(cells)}));
-  }
-  return all;
-}
-
-std::vector<CoverageTrial::Row> trial_rows(const Json& json) {
-  std::vector<CoverageTrial::Row> rows;
-  for (const Json& from : json) {
-    CoverageTrial::Row row{from.at(0).get<bool>(), from.at(1).get<double>(), {}};
-    for (const Json& cell : from.at(2)) {
-      auto& to = row.cells.emplace_back();
-      // An interval without an end is infinitely wide, which JSON has no number for.
-      if (!cell.is_null()) {
-        to = {cell.at(0).get<bool>(), cell.at(1).is_null() ? INFINITY : cell.at(1).get<double>()};
-      }
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 }  // namespace
 
 CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth,
@@ -215,16 +187,6 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     result.rows.push_back(std::move(row));
   }
   return result;
-}
-
-Json json_of(const CoverageTrial& trial) {
-  return Json::array(
-      {trial.usable, trial.refits_failed, rows_json(trial.parameters), rows_json(trial.capture)});
-}
-
-CoverageTrial coverage_trial_of(const Json& json) {
-  return {json.at(0).get<bool>(), json.at(1).get<int>(), trial_rows(json.at(2)),
-          trial_rows(json.at(3))};
 }
 
 std::string digits_of(const CoverageTruth& truth) {

@@ -91,17 +91,20 @@ struct CoverageTrial {
   struct Cell {
     bool held = false;
     double width = 0.0;  ///< [parameter's unit]
+    RECOIL_FIELDS(held, width)
   };
   struct Row {
     bool identifiable = false;
     double deviation = 0.0;                  ///< of the estimate from the truth over its scale [1]
     std::vector<std::optional<Cell>> cells;  ///< [kinds]; none: no such interval
+    RECOIL_FIELDS(identifiable, deviation, cells)
   };
   bool usable = false;  ///< else its fit gave no answer, or the scheme cannot draw from its points,
                         ///< and the rest is empty
   int refits_failed = 0;
   std::vector<Row> parameters;  ///< those that are free
   std::vector<Row> capture;     ///< in the order of `capture_estimates`
+  RECOIL_FIELDS(usable, refits_failed, parameters, capture)
 };
 
 /// Simulation number `index`, fitted as a user would: a pure function of it.
@@ -112,10 +115,6 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
 CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
                               const CoverageOptions& options,
                               const std::vector<CoverageTrial>& trials);
-
-/// Every digit of a trial, and back. @throws nlohmann::json::exception for another thing
-Json json_of(const CoverageTrial& trial);
-CoverageTrial coverage_trial_of(const Json& json);
 
 /// What the trials begin with, to the last digit: parts with other digits here are no parts of one
 /// study.

@@ -73,6 +73,12 @@ struct Number {
   operator Sentence() const { return words(); }
 };
 
+/// A whole number.
+template <class Count>
+Number whole(Count count) {
+  return {static_cast<double>(count), fixed(0)};
+}
+
 /// A quantity that may not be known.
 std::optional<Number> number_if(const std::optional<double>& value, const Notation& notation);
 

@@ -103,6 +103,18 @@ Sentence as_sentence(Sentence words);
 
 Sentence join(const std::vector<Sentence>& parts, const Sentence& between);
 
+/// What `words` says of every item, with `between` between them: a string where it gives text.
+template <class Items, class Words>
+auto joined(const Items& items, std::string_view between, const Words& words) {
+  using Said = std::decay_t<decltype(words(*std::begin(items)))>;
+  std::conditional_t<std::is_same_v<Said, Sentence>, Sentence, std::string> text;
+  for (auto item = std::begin(items); item != std::end(items); ++item) {
+    if (item != std::begin(items)) text += between;
+    text += words(*item);
+  }
+  return text;
+}
+
 /// An identifier such as "jkr_loss" in words: "JKR loss".
 std::string words_of(std::string identifier);
 

@@ -44,16 +44,6 @@ std::size_t longest_word(std::string_view text) {
   return longest;
 }
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.emplace_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
 std::string padded_to(const std::string& text, std::size_t width, bool right) {
   const std::size_t own = code_points(text);
   const std::string blanks(width > own ? width - own : 0, ' ');
@@ -239,6 +229,16 @@ std::size_t output_columns() {
     columns = window.ws_col;
   }
   return columns == 0 ? terminal_columns : std::clamp(columns, fewest, terminal_columns);
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
 }
 
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "predict/capture_models.hpp"
+#include "predict/polydisperse.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {
@@ -82,14 +82,6 @@ std::optional<PublishedYield> published_yield_pressure(const Material& particle)
 
 namespace {
 
-std::vector<double> spaced(double first, double last, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) {
-    values.push_back(first * std::pow(last / first, i / (count - 1.0)));
-  }
-  return values;
-}
-
 /// [m/s]; not a number where there is no answer.
 std::vector<double> fitted_velocities(const ImpactModel& model, std::span<const double> theta,
                                       std::size_t dataset, const std::vector<double>& diameters) {
@@ -116,15 +108,10 @@ CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
   });
   for (std::size_t k = 0; k < diameters.size(); ++k) {
     std::vector<double> at;
-    for (const auto& row : values) {
-      if (std::isfinite(row[k])) at.push_back(row[k]);
-    }
-    std::sort(at.begin(), at.end());
-    const bool enough =
-        static_cast<double>(at.size()) >= share_for_band * static_cast<double>(count);
-    const double tail = (1.0 - options.level) / 2.0;
-    curve.lower.push_back(enough ? sorted_quantile(at, tail) : std::nan(""));
-    curve.upper.push_back(enough ? sorted_quantile(at, 1.0 - tail) : std::nan(""));
+    for (const auto& row : values) at.push_back(row[k]);
+    const BandedValue band = banded(1.0, std::move(at), options.level);
+    curve.lower.push_back(band.lower.value_or(NAN));
+    curve.upper.push_back(band.upper.value_or(NAN));
   }
   return curve;
 }
@@ -154,17 +141,12 @@ void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
 /// The largest e of the fitted curve at the reference diameter up to the fastest point [1].
 double largest_restitution(const FitResult& fitted, std::size_t dataset, double fastest) {
   const double diameter = fitted.model.contacts[dataset].reference_diameter;
-  std::vector<PointConditions> points;
-  for (const double v : spaced(1e-3 * fastest, fastest, 60)) {
-    points.push_back({dataset, diameter, v, PointConditions::no_series});
-  }
-  PointPredictor predictor(fitted.model, std::move(points), Effects::of_nature);
-  predictor.evaluate(fitted.theta, false);
   double largest = 0.0;
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    if (predictor.at(i).usable()) largest = std::max(largest, predictor.at(i).restitution_squared);
+  for (const double e : true_restitutions(fitted.model, fitted.theta, dataset, diameter,
+                                          log_spaced(1e-3 * fastest, fastest, 60))) {
+    if (std::isfinite(e)) largest = std::max(largest, e);
   }
-  return std::sqrt(std::min(largest, 1.0));
+  return std::min(largest, 1.0);
 }
 
 template <class Velocity>
@@ -235,7 +217,7 @@ std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
     if (!(fastest > 0.0)) continue;
     const auto [smallest, largest] = std::minmax_element(sizes.begin(), sizes.end());
     comparison.diameter =
-        spaced(*smallest / options.widened, *largest * options.widened, options.diameters);
+        log_spaced(*smallest / options.widened, *largest * options.widened, options.diameters);
     CaptureCurve fit = fitted_curve(fitted, d, comparison.diameter, bootstrap, options);
     keep_answered(comparison, fit);
     comparison.curves.push_back(std::move(fit));

@@ -92,43 +92,6 @@ class MixtureFlight {
   PointPredictor predictor_;
 };
 
-std::optional<double> finite(double value) {
-  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-/// The value of the fit with the percentiles of the replicates.
-BandedValue banded(double value, std::vector<double> replicates, double level) {
-  BandedValue out{finite(value), {}, {}};
-  const std::size_t count = replicates.size();
-  std::erase_if(replicates, [](double v) { return !std::isfinite(v); });
-  const bool enough =
-      count >= fewest_replicates(level) &&
-      static_cast<double>(replicates.size()) >= share_for_band * static_cast<double>(count);
-  if (!out.value || !enough) return out;
-  std::sort(replicates.begin(), replicates.end());
-  out.lower = sorted_quantile(replicates, (1.0 - level) / 2.0);
-  out.upper = sorted_quantile(replicates, (1.0 + level) / 2.0);
-  return out;
-}
-
-std::vector<double> restitution_of(const ImpactModel& model, std::span<const double> theta,
-                                   std::size_t dataset, double diameter,
-                                   const std::vector<double>& velocities) {
-  std::vector<PointConditions> points;
-  for (const double v : velocities) {
-    points.push_back({dataset, diameter, v, PointConditions::no_series});
-  }
-  PointPredictor predictor(model, std::move(points), Effects::of_nature);
-  predictor.evaluate(theta, false);
-  std::vector<double> e;
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    const ImpactResult& impact = predictor.at(i);
-    e.push_back(impact.usable() ? std::sqrt(std::max(0.0, impact.restitution_squared))
-                                : std::nan(""));
-  }
-  return e;
-}
-
 CurveMiss miss(const std::vector<double>& predicted, const std::vector<double>& measured) {
   CurveMiss out;
   double sum = 0.0;
@@ -153,14 +116,51 @@ std::vector<double> velocity_grid(const std::vector<SizeCurve>& sizes, double sl
   }
   last *= 1.1;
   first = std::max(first, 1e-3 * last);
-  std::vector<double> grid;
-  for (int i = 0; i < count; ++i) {
-    grid.push_back(first * std::pow(last / first, i / (count - 1.0)));
-  }
-  return grid;
+  return log_spaced(first, last, count);
 }
 
 }  // namespace
+
+BandedValue banded(double value, std::vector<double> replicates, double level) {
+  BandedValue out;
+  if (std::isfinite(value)) out.value = value;
+  const std::size_t count = replicates.size();
+  std::erase_if(replicates, [](double v) { return !std::isfinite(v); });
+  const bool enough =
+      count >= fewest_replicates(level) &&
+      static_cast<double>(replicates.size()) >= share_for_band * static_cast<double>(count);
+  if (!out.value || !enough) return out;
+  std::sort(replicates.begin(), replicates.end());
+  out.lower = sorted_quantile(replicates, (1.0 - level) / 2.0);
+  out.upper = sorted_quantile(replicates, (1.0 + level) / 2.0);
+  return out;
+}
+
+std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
+                                      std::size_t dataset, double diameter,
+                                      const std::vector<double>& velocities) {
+  std::vector<PointConditions> points;
+  for (const double v : velocities) {
+    points.push_back({dataset, diameter, v, PointConditions::no_series});
+  }
+  PointPredictor predictor(model, std::move(points), Effects::of_nature);
+  predictor.evaluate(theta, false);
+  std::vector<double> e;
+  for (std::size_t i = 0; i < predictor.size(); ++i) {
+    const ImpactResult& impact = predictor.at(i);
+    e.push_back(impact.usable() ? std::sqrt(std::max(0.0, impact.restitution_squared))
+                                : std::nan(""));
+  }
+  return e;
+}
+
+std::vector<double> log_spaced(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(first * std::pow(last / first, i / (count - 1.0)));
+  }
+  return values;
+}
 
 PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
                                        const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
@@ -195,7 +195,7 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
   }
   out.velocity = velocity_grid(out.size_curves, slowest, fastest, options.velocities);
   for (SizeCurve& size : out.size_curves) {
-    size.restitution = restitution_of(model, fitted.theta, dataset, size.diameter, out.velocity);
+    size.restitution = true_restitutions(model, fitted.theta, dataset, size.diameter, out.velocity);
   }
 
   const std::vector<SizeBin> bins = spread_within_bins(sizes.bins, options.parts);
@@ -236,7 +236,7 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
     out.miss[c] = miss(predicted, point_restitution);
   }
   out.miss_single =
-      miss(restitution_of(model, fitted.theta, dataset, d10, point_velocity), point_restitution);
+      miss(true_restitutions(model, fitted.theta, dataset, d10, point_velocity), point_restitution);
   return out;
 }
 

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "core/names.hpp"
+#include "core/json.hpp"
 #include "data/dataset.hpp"
 #include "data/measured_sizes.hpp"
 #include "estimate/fit.hpp"
@@ -34,6 +35,18 @@ struct BandedValue {
                                        ///< ten replicates have a value
 };
 
+/// The value of the fit with the percentiles of the replicates; NaN: no value.
+BandedValue banded(double value, std::vector<double> replicates, double level);
+
+/// e of spheres of one size at every velocity, without errors of the measurement [1]; NaN where the
+/// model has no answer.
+std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
+                                      std::size_t dataset, double diameter,
+                                      const std::vector<double>& velocities);
+
+/// `count` values from `first` to `last`, evenly spaced in their logarithm.
+std::vector<double> log_spaced(double first, double last, int count);
+
 /// A size of a mixture that has a curve of its own; d10 is the mean.
 enum class NamedSize { smallest, d10, largest };
 template <>
@@ -53,6 +66,7 @@ struct SizeCurve {
 struct CurveMiss {
   std::optional<double> rmse;  ///< of e over the points with a prediction [1]
   std::size_t points = 0;      ///< how many these are
+  RECOIL_FIELDS(rmse, points)
 };
 
 /// The response of a mixture of sizes under a fit.

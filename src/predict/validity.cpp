@@ -148,6 +148,17 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   return found;
 }
 
+void keep_worst(const Validity& one, std::vector<Validity>& worst) {
+  const auto known = std::find_if(worst.begin(), worst.end(), [&](const Validity& other) {
+    return other.quantity == one.quantity;
+  });
+  if (known == worst.end()) {
+    worst.push_back(one);
+  } else if (one.limit_is_least() ? one.value < known->value : one.value > known->value) {
+    *known = one;
+  }
+}
+
 std::vector<Validity> fit_validity(const FitResult& fitted, const std::vector<Dataset>& datasets) {
   std::vector<Validity> all;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
@@ -155,14 +166,7 @@ std::vector<Validity> fit_validity(const FitResult& fitted, const std::vector<Da
     for (const PointConditions& point : extreme_points(fitted, d)) {
       for (const Validity& one :
            impact_validity(fitted.model, datasets[d].system, fitted.theta, point)) {
-        const auto known = std::find_if(worst.begin(), worst.end(), [&](const Validity& other) {
-          return other.quantity == one.quantity;
-        });
-        if (known == worst.end()) {
-          worst.push_back(one);
-        } else if (one.limit_is_least() ? one.value < known->value : one.value > known->value) {
-          *known = one;
-        }
+        keep_worst(one, worst);
       }
     }
     all.insert(all.end(), worst.begin(), worst.end());

@@ -68,6 +68,9 @@ struct Validity {
 std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSystem& system,
                                       std::span<const double> theta, const PointConditions& point);
 
+/// Puts `one` into `worst` in place of a less bad one of the same quantity.
+void keep_worst(const Validity& one, std::vector<Validity>& worst);
+
 /// The worst case of each over the points of each dataset, at the fit's answer.
 /// @pre fitted.usable
 std::vector<Validity> fit_validity(const FitResult& fitted, const std::vector<Dataset>& datasets);

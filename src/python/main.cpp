@@ -40,7 +40,6 @@
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
 #include "report/pairing_report.hpp"
-#include "report/posterior_report.hpp"
 #include "report/prediction_report.hpp"
 #include "report/result_json.hpp"
 
@@ -343,16 +342,8 @@ struct Predicted {
 Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
                       const std::string& unit, std::optional<double> height_mm, bool midpoints,
                       const std::string& dataset) {
-  const MeasuredSizes sizes = load_sizes(sizes_file, unit);
-  PolydisperseOptions mix;
-  mix.level = analysis.uncertainty.options.level;
-  mix.threads = analysis.uncertainty.options.threads;
-  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
-  if (height_mm) mix.probe_height = *height_mm * units::mm;
-  if (midpoints) mix.parts = 1;
   const PolydispersePrediction mixture =
-      predict_mixture(analysis.fitted, choose_dataset(analysis.datasets, dataset),
-                      analysis.uncertainty.bootstrap, sizes, mix);
+      predict_sizes(analysis, load_sizes(sizes_file, unit), height_mm, midpoints, dataset);
   return {json_prediction(analysis, mixture),
           text_prediction(analysis, mixture),
           {{mixture_figure(analysis, mixture)}}};

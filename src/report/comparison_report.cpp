@@ -31,11 +31,16 @@ std::string title_of(const ComparedFit& fit) {
   return title;
 }
 
-Table quality_table(const std::vector<ComparedFit>& fits) {
-  std::optional<double> best;
+std::optional<double> lowest_aicc(const std::vector<ComparedFit>& fits) {
+  std::optional<double> lowest;
   for (const ComparedFit& fit : fits) {
-    if (const auto aicc = fit.aicc()) best = std::min(best.value_or(*aicc), *aicc);
+    if (const auto aicc = fit.aicc()) lowest = std::min(lowest.value_or(*aicc), *aicc);
   }
+  return lowest;
+}
+
+Table quality_table(const std::vector<ComparedFit>& fits) {
+  const std::optional<double> best = lowest_aicc(fits);
   Table table;
   table.columns = {{"fit"},
                    {"adhesion"},
@@ -48,7 +53,7 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
     const auto aicc = fit.aicc();
     table.rows.push_back(
         {Sentence(fit.id), title_of(fit) == fit.id ? Cell() : Cell(Sentence(title_of(fit))),
-         Number{static_cast<double>(fit.free_parameters), fixed(0)}, Number{fit.chi2},
+         whole(fit.free_parameters), Number{fit.chi2},
          aicc && best ? Cell(Number{*aicc - *best, fixed(1)}) : Cell("not defined"),
          Number{fit.rmse}, fit.held_out_rmse ? Cell(Number{*fit.held_out_rmse}) : Cell()});
   }
@@ -96,10 +101,9 @@ Sentence dependence_words(const ChoiceDependence& found) {
     return "No quantity has an interval in more than one of the fits.";
   }
   if (found.depends.empty()) return "No quantity depends on the choice: all intervals overlap.";
-  std::vector<Sentence> names;
-  for (const std::string& name : found.depends) names.push_back(quantity_sentence(name));
   return say("{} of {} quantities depend on the choice, as their intervals do not overlap: {}.",
-             found.depends.size(), found.depends.size() + found.holds.size(), join(names, ", "));
+             found.depends.size(), found.depends.size() + found.holds.size(),
+             joined(found.depends, ", ", quantity_sentence));
 }
 
 Ends around(double value, double error, bool log_scale) {
@@ -295,9 +299,8 @@ Json fit_of_comparison(const ComparedFit& fit, std::optional<double> best) {
 }
 
 Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
-  const auto found = std::find_if(fit.quantities.begin(), fit.quantities.end(),
-                                  [&](const ComparedQuantity& q) { return q.name == name; });
-  if (found == fit.quantities.end()) return nullptr;
+  const ComparedQuantity* const found = quantity_of(fit, name);
+  if (found == nullptr) return nullptr;
   entry["unit"] = found->unit;
   return {{"value", number_or_null(found->value)},
           {"free", found->free},
@@ -308,10 +311,7 @@ Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
 
 std::string comparison_json(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
-  std::optional<double> best;
-  for (const ComparedFit& fit : fits) {
-    if (const auto aicc = fit.aicc()) best = std::min(best.value_or(*aicc), *aicc);
-  }
+  const std::optional<double> best = lowest_aicc(fits);
   Json out;
   out["format_version"] = format_version;
   out["recoil_version"] = version();

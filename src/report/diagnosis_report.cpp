@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
@@ -74,8 +73,7 @@ Table misfit_table(const Diagnosis& d) {
     table.rows.push_back(
         {Sentence(size_text(cell.diameter, sizes)),
          d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, cell.dataset))) : Cell(),
-         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
-         Number{static_cast<double>(cell.points), fixed(0)},
+         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest), whole(cell.points),
          Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
          Number{cell.standardised, signed_fixed(1)}});
   }
@@ -154,9 +152,9 @@ Table held_out_table(const Diagnosis& d) {
   for (const HeldOutGain::PerFold& fold : d.gain()->folds) {
     table.rows.push_back(
         {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
-         Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
-         Number{fold.rmse_base, significant(3)}, Number{fold.rmse_extended, significant(3)},
-         Number{fold.log_score, signed_fixed(1)}, Sentence(remark_of(fold))});
+         whole(fold.fold.points.size()), Number{fold.rmse_base, significant(3)},
+         Number{fold.rmse_extended, significant(3)}, Number{fold.log_score, signed_fixed(1)},
+         Sentence(remark_of(fold))});
   }
   return table;
 }
@@ -220,10 +218,9 @@ Table next_experiment_table(const Diagnosis& d) {
                    {say("difference in {e}")}};
   for (const NextExperiment& next : several->experiments) {
     table.rows.push_back(
-        {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
-         Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},
-         Sentence(words_of(next.one)), Sentence(words_of(next.other)),
-         Number{next.difference, signed_fixed(3)}});
+        {Sentence(doing_words(next)), whole(next.events), Sentence(size_text(next.diameter, sizes)),
+         Number{next.velocity, significant(3)}, Sentence(words_of(next.one)),
+         Sentence(words_of(next.other)), Number{next.difference, signed_fixed(3)}});
   }
   return table;
 }
@@ -277,15 +274,7 @@ Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
 }
 
 Document diagnosis_document(const Diagnosis& d) {
-  Document page;
-  page.title = "Diagnosis of " + d.spec.id;
-  page.heading = page.title;
-  page.name = d.spec.id;
-  page.foot = "recoil " + version();
-  page.sections = diagnosis_sections(d);
-  page.sections.front().title = {};  // the heading of the page says it
-  page.sections.front().remark = {};
-  return page;
+  return page_of("Diagnosis of " + d.spec.id, d.spec.id, diagnosis_sections(d));
 }
 
 std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t columns) {

@@ -116,15 +116,14 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   }
   shown.layers.push_back(
       plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});
-  plot::Picture picture;
-  picture.name = fmt::format("misfit-{}", dataset);
-  picture.title = "Misfit of the base model against velocity and diameter" + in_dataset(d, dataset);
-  picture.height = 300;
-  picture.plots = {std::move(shown)};
-  return figure_of(std::move(picture),
-                   "Each disc is a point; larger discs deviate by more standard deviations. "
-                   "Orange: e is above the model; blue: below. Patches of one colour indicate "
-                   "structure, a mixture indicates noise.");
+  return figure_of(
+      {.name = fmt::format("misfit-{}", dataset),
+       .title = "Misfit of the base model against velocity and diameter" + in_dataset(d, dataset),
+       .height = 300,
+       .plots = {std::move(shown)}},
+      "Each disc is a point; larger discs deviate by more standard deviations. "
+      "Orange: e is above the model; blue: below. Patches of one colour indicate "
+      "structure, a mixture indicates noise.");
 }
 
 /// The base curve and the extended one of one diameter.
@@ -208,14 +207,12 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     if (sizes.size() <= plot::markers.size()) points.name = size_text(d, diameter);
     shown.layers.push_back(std::move(points));
   }
-  plot::Picture picture;
-  picture.name = fmt::format("before-after-{}", dataset);
-  picture.title =
-      "Restitution against velocity under the base and the extended model" + in_dataset(d, dataset);
-  picture.width = 560;
-  picture.height = 380;
-  picture.plots = {std::move(shown)};
-  return figure_of(std::move(picture),
+  return figure_of({.name = fmt::format("before-after-{}", dataset),
+                    .title = "Restitution against velocity under the base and the extended model" +
+                             in_dataset(d, dataset),
+                    .width = 560,
+                    .height = 380,
+                    .plots = {std::move(shown)}},
                    fmt::format("Dashed: the model. Solid: extended by {}. Error bars are one "
                                "standard deviation.",
                                words_of(d.extended()->cause.candidate.name())));

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/program.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
 #include "report/comparison_report.hpp"
@@ -29,24 +28,9 @@ constexpr std::size_t fewest_rows_of_answer = 3;
 
 /// "ammonium fluorescein on molybdenum, 60 points"
 Sentence subtitle_of(const Analysis& a) {
-  std::vector<std::string> surfaces;
-  for (const Dataset& dataset : a.datasets) surfaces.push_back(dataset.system.surface.name);
   return say("{} on {}, {} points", a.datasets.front().system.particle.name,
-             fmt::format("{}", fmt::join(surfaces, ", ")), a.fitted.data.points.size());
-}
-
-/// The capture velocity at the diameter for which the parameters of a dataset are quoted.
-const CaptureEstimate* reference_capture(const Analysis& a, std::size_t dataset) {
-  const double reference = a.fitted.model.contacts[dataset].reference_diameter;
-  const CaptureEstimate* nearest = nullptr;
-  for (const CaptureEstimate& capture : a.uncertainty.capture) {
-    if (capture.dataset != dataset || !capture.found || without_adhesion(a, dataset)) continue;
-    const auto distance = [&](const CaptureEstimate& one) {
-      return std::abs(std::log(one.diameter / reference));
-    };
-    if (nearest == nullptr || distance(capture) < distance(*nearest)) nearest = &capture;
-  }
-  return nearest;
+             joined(a.datasets, ", ", [](const Dataset& d) { return d.system.surface.name; }),
+             a.fitted.data.points.size());
 }
 
 /// "Spheres of 4.9 um stick below 0.958 m/s [0.912, 0.984]."
@@ -74,11 +58,7 @@ Sentence capture_words(const Analysis& a) {
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const CaptureEstimate* const capture = reference_capture(a, k);
     if (capture == nullptr) continue;
-    Number velocity{capture->value, padded(3)};
-    if (capture->interval.available()) {
-      velocity.band = {*capture->interval.lower, *capture->interval.upper};
-    }
-    Sentence part = velocity.words() + " m/s";
+    Sentence part = with_interval(capture->value, capture->interval, padded(3)).words() + " m/s";
     if (a.datasets.size() > 1) part += " on " + short_name(a.datasets, k);
     parts.push_back(capture->diameter == last
                         ? part
@@ -109,13 +89,10 @@ Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
 
 /// A parameter of the model that its upper bound holds back.
 Sentence bound_words(const FitResult& f) {
-  std::vector<Sentence> names;
-  for (const std::size_t j : held_back_dampings(f)) {
-    names.push_back(symbol(f.model.slots[j].label()));
-  }
-  if (names.empty()) return {};
+  const std::vector<std::size_t> held = held_back_dampings(f);
+  if (held.empty()) return {};
   return say("{} is at its upper bound: widen the bounds before you interpret the fit.",
-             join(names, ", "));
+             joined(held, ", ", [&](std::size_t j) { return symbol(f.model.slots[j].label()); }));
 }
 
 /// The point without which the others fit, with the verdict on them.
@@ -349,19 +326,13 @@ Document fit_document(const Analysis& a, const Diagnosis* diagnosis,
     throw ComputationError(
         fmt::format("there is no page without a usable fit: {}", a.fitted.failure));
   }
-  Document page;
-  page.sections = fit_sections(a, diagnosis, diagnosis_page);
+  const std::string& title = a.datasets.front().title;
+  Document page = page_of(a.datasets.size() == 1 && !title.empty() ? title : a.spec.id, a.spec.id,
+                          fit_sections(a, diagnosis, diagnosis_page));
+  page.subtitle = subtitle_of(a);
+  page.script = explore_script();
   const Sentence rates = own_design_words(a, INFINITY);
   if (!rates.empty()) page.sections.front().blocks.emplace_back(Paragraph{rates});
-  const std::string& title = a.datasets.front().title;
-  page.title = a.datasets.size() == 1 && !title.empty() ? title : a.spec.id;
-  page.heading = page.title;
-  page.subtitle = page.sections.front().remark;
-  page.foot = "recoil " + version();
-  page.name = a.spec.id;
-  page.script = explore_script();
-  page.sections.front().title = {};  // the heading of the page says it
-  page.sections.front().remark = {};
   return page;
 }
 

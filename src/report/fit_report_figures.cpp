@@ -94,11 +94,8 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
     shown.layers.push_back(
         captured_layer({columns.captured, std::vector<double>(columns.captured.size(), 0.0)}));
   }
-  plot::Picture picture;
-  picture.title = fmt::format("Restitution against incident velocity, {}", shown.heading);
-  picture.height = 375;
-  picture.plots = {std::move(shown)};
-  return picture;
+  const std::string title = "Restitution against incident velocity, " + shown.heading;
+  return {.name = {}, .title = title, .height = 375, .plots = {std::move(shown)}};
 }
 
 /// One point in how many is drawn.
@@ -415,13 +412,11 @@ plot::Picture restitution_overview(const Analysis& analysis, int width, int heig
   }
   captured.y.assign(captured.x.size(), 0.0);
   if (!captured.x.empty()) shown.layers.push_back(captured_layer(std::move(captured)));
-  plot::Picture picture;
-  picture.name = "overview";
-  picture.title = fmt::format("Restitution against incident velocity, {}", analysis.spec.id);
-  picture.width = width;
-  picture.height = height;
-  picture.plots = {std::move(shown)};
-  return picture;
+  return {.name = "overview",
+          .title = "Restitution against incident velocity, " + analysis.spec.id,
+          .width = width,
+          .height = height,
+          .plots = {std::move(shown)}};
 }
 
 std::vector<Figure> restitution_figures(const Analysis& analysis) {
@@ -443,12 +438,12 @@ std::vector<Figure> residual_figures(const Analysis& analysis) {
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const std::vector<ResidualRow> rows = residual_rows(analysis, k);
     if (rows.empty()) continue;
-    plot::Picture picture;
-    picture.name = fmt::format("residuals-{}", k + 1);
-    picture.title = fmt::format("Weighted residuals against velocity, {}", analysis.datasets[k].id);
-    picture.height = 320;
-    picture.plots = {residual_plot(rows)};
-    figures.push_back(figure_of(std::move(picture), residual_caption(analysis, rows, k)));
+    figures.push_back(
+        figure_of({.name = fmt::format("residuals-{}", k + 1),
+                   .title = "Weighted residuals against velocity, " + analysis.datasets[k].id,
+                   .height = 320,
+                   .plots = {residual_plot(rows)}},
+                  residual_caption(analysis, rows, k)));
   }
   return figures;
 }
@@ -458,12 +453,11 @@ std::vector<Figure> capture_figures(const Analysis& analysis) {
   for (const CaptureComparison& comparison : analysis.captures) {
     if (comparison.diameter.size() < 2 || comparison.curves.empty()) continue;
     const Dataset& dataset = analysis.datasets[comparison.dataset];
-    plot::Picture picture;
-    picture.name = fmt::format("capture-models-{}", comparison.dataset + 1);
-    picture.title = fmt::format("Capture velocity against diameter, {}", dataset.id);
-    picture.height = 430;
-    picture.plots = {capture_plot(comparison, dataset)};
-    figures.push_back(figure_of(std::move(picture), capture_caption(comparison, dataset)));
+    figures.push_back(figure_of({.name = fmt::format("capture-models-{}", comparison.dataset + 1),
+                                 .title = "Capture velocity against diameter, " + dataset.id,
+                                 .height = 430,
+                                 .plots = {capture_plot(comparison, dataset)}},
+                                capture_caption(comparison, dataset)));
   }
   return figures;
 }

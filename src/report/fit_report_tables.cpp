@@ -21,8 +21,6 @@ Cell number_at(const std::vector<double>& values, std::size_t i, const Notation&
   return i < values.size() ? Cell(Number{values[i], notation}) : Cell();
 }
 
-Cell count_cell(std::size_t count) { return Number{static_cast<double>(count), fixed(0)}; }
-
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
 Sentence labelled(const Analysis& a, std::size_t slot) {
@@ -45,11 +43,7 @@ Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
   if (capture.above) return say("above {:.3g}", *capture.above);
   if (capture.below) return say("below {:.3g}", *capture.below);
   if (!capture.found) return "none found";
-  Number value{capture.value, padded(3)};
-  if (capture.interval.available()) {
-    value.band = {*capture.interval.lower, *capture.interval.upper};
-  }
-  return value;
+  return with_interval(capture.value, capture.interval, padded(3));
 }
 
 /// What is special about a parameter, in a word or two.
@@ -73,22 +67,19 @@ Cell degrees_of_freedom_cell(const FitResult& f) {
   const int silent =
       static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
   if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
-    return Number{static_cast<double>(std::max(0, f.dof)), fixed(0)};
+    return whole(std::max(0, f.dof));
   }
   return say("{} ({} captured point{} excluded)", std::max(0, f.dof), silent,
              silent == 1 ? " is" : "s are");
 }
 
 std::string_view strategy_words(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::trust_region:
-      return "trust region within bounds (Ceres)";
-    case Strategy::box_descent:
-      return "Levenberg-Marquardt within bounds";
-    case Strategy::gauss_newton:
-      return "Gauss-Newton";
-  }
-  return "";
+  using enum Strategy;
+  static constexpr Phrase<Strategy> phrases[] = {
+      {trust_region, "trust region within bounds (Ceres)"},
+      {box_descent, "Levenberg-Marquardt within bounds"},
+      {gauss_newton, "Gauss-Newton"}};
+  return phrase_for(phrases, strategy).words;
 }
 
 std::string starts_words(const FitResult& f) {
@@ -134,10 +125,7 @@ Table parameters_table(const Analysis& a) {
   table.compact = true;
   table.columns = {
       {"parameter"}, {say("estimate {+/-} error")}, {level_of(a) + " interval", "", true}};
-  bool adheres = false;
-  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
-    adheres = adheres || !without_adhesion(f.model, d);
-  }
+  const bool adheres = adheres_anywhere(f.model);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     if (slot.is_constant()) continue;
@@ -261,19 +249,18 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
 
 Table statistics_table(const Analysis& a) {
   const FitResult& f = a.fitted;
-  std::vector<Sentence> added;
-  for (const std::string& id : a.spec.mechanisms) added.emplace_back(words_of(id));
   std::vector<std::pair<Sentence, Cell>> entries = {
       {"equation of motion", equation_words(f.model.adhesion)},
       {"adhesion damping", f.model.phase == AdhesionDampingPhase::rebound
                                ? "during rebound"
                                : "during approach and rebound"},
-      {"mechanisms", join(added, ", ")},
+      {"mechanisms", joined(a.spec.mechanisms, ", ",
+                            [](const std::string& id) { return Sentence(words_of(id)); })},
       {"method", say("{} in {e}{}, {}; {}",
                      f.data.spec.student ? "Student's t likelihood" : "weighted least squares",
                      exponent("2"), strategy_words(f.strategy), starts_words(f))},
-      {"data points", count_cell(f.data.points.size())},
-      {"free parameters", count_cell(free_parameters(f))},
+      {"data points", whole(f.data.points.size())},
+      {"free parameters", whole(free_parameters(f))},
       {"chi-square", Number{f.chi2, significant(6)}},
       {"degrees of freedom", degrees_of_freedom_cell(f)},
       {"p-value", p_value_cell(f)},

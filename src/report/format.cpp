@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/words_dataset.hpp"
 
@@ -63,13 +64,37 @@ Sentence diameter_sentence(double diameter) {
                          : say("{:.3g} mm", diameter / 1e-3);
 }
 
-std::string as_sentence(std::string words) {
-  if (words.empty()) return words;
-  if (words[0] >= 'a' && words[0] <= 'z' && !words.starts_with("f0")) {
-    words[0] = static_cast<char>(words[0] - 'a' + 'A');
+std::string p_words(double p) { return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p); }
+
+Number with_interval(double value, const Interval& interval, const Notation& notation) {
+  Number number{value, notation};
+  if (interval.available()) number.band = {*interval.lower, *interval.upper};
+  return number;
+}
+
+const CaptureEstimate* reference_capture(const Analysis& a, std::size_t dataset) {
+  const double reference = a.fitted.model.contacts[dataset].reference_diameter;
+  const CaptureEstimate* nearest = nullptr;
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    if (capture.dataset != dataset || !capture.found || without_adhesion(a, dataset)) continue;
+    const auto distance = [&](const CaptureEstimate& one) {
+      return std::abs(std::log(one.diameter / reference));
+    };
+    if (nearest == nullptr || distance(capture) < distance(*nearest)) nearest = &capture;
   }
-  if (std::string_view(".!?").find(words.back()) == std::string_view::npos) words += '.';
-  return words;
+  return nearest;
+}
+
+Document page_of(const std::string& title, const std::string& name, std::vector<Section> sections) {
+  Document page;
+  page.title = title;
+  page.heading = title;
+  page.name = name;
+  page.foot = "recoil " + version();
+  page.sections = std::move(sections);
+  page.sections.front().title = {};
+  page.sections.front().remark = {};
+  return page;
 }
 
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
@@ -144,6 +169,13 @@ Sentence parameter_words(const ImpactModel& model, std::size_t slot,
 
 bool without_adhesion(const Analysis& analysis, std::size_t dataset) {
   return without_adhesion(analysis.fitted.model, dataset);
+}
+
+bool adheres_anywhere(const ImpactModel& model) {
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    if (!without_adhesion(model, d)) return true;
+  }
+  return false;
 }
 
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,

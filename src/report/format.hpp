@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,8 +44,33 @@ std::string diameter_words(double diameter);
 /// The same, the unit marked as one.
 Sentence diameter_sentence(double diameter);
 
-/// `words` with a capital at the start and a full stop at the end; empty stays empty.
-std::string as_sentence(std::string words);
+/// The words for one value of an enum.
+template <NamedEnum Enum>
+struct Phrase {
+  Enum value;
+  const char* words;
+};
+
+/// The entry of `value` in a table with one entry for every value of its enum.
+template <class Entry, std::size_t Count>
+constexpr const Entry& phrase_for(const Entry (&entries)[Count], decltype(Entry::value) value) {
+  static_assert(Count == count_of<decltype(Entry::value)>, "a value has no words");
+  return *std::find_if(std::begin(entries), std::end(entries) - 1,
+                       [&](const Entry& entry) { return entry.value == value; });
+}
+
+/// "p = 0.03", "p < 1e-6".
+std::string p_words(double p);
+
+/// A value with its interval, where it has one: "0.958 [0.912, 0.984]".
+Number with_interval(double value, const Interval& interval, const Notation& notation);
+
+/// The capture velocity at the diameter for which the parameters of a dataset are quoted; null
+/// where none was found.
+const CaptureEstimate* reference_capture(const Analysis& analysis, std::size_t dataset);
+
+/// A page with these sections. The heading of the page stands for the title of the first.
+Document page_of(const std::string& title, const std::string& name, std::vector<Section> sections);
 
 /// Every interval of one slot; with the reason filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
@@ -77,6 +103,9 @@ Sentence parameter_words(const ImpactModel& model, std::size_t slot,
 
 /// Is there no adhesion on `dataset`?
 bool without_adhesion(const Analysis& analysis, std::size_t dataset);
+
+/// Is there adhesion on any dataset?
+bool adheres_anywhere(const ImpactModel& model);
 
 /// Shown in place of a capture velocity then.
 inline constexpr const char* no_capture_words = "none (no adhesion)";

@@ -49,17 +49,10 @@ Cell ends_cell(const std::optional<Ends>& ends) {
 
 /// A sign for each verdict, so that no verdict is told by its colour alone.
 const char* sign_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::adequate:
-      return "✓";
-    case Verdict::cause_named:
-      return "◆";
-    case Verdict::not_separable:
-      return "?";
-    case Verdict::unexplained:
-      return "✗";
-  }
-  return "";
+  using enum Verdict;
+  static constexpr Phrase<Verdict> phrases[] = {
+      {adequate, "✓"}, {cause_named, "◆"}, {not_separable, "?"}, {unexplained, "✗"}};
+  return phrase_for(phrases, verdict).words;
 }
 
 /// Capture velocities of the first sizes, and all free parameters.

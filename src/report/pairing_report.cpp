@@ -26,32 +26,25 @@ double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
 Section rows_section(const PassageTable& table) {
-  std::vector<std::string> units;
-  for (const FieldUnit& field : table.units) {
-    units.push_back(fmt::format("{} [{}]", field.field, field.unit));
-  }
   Section section{"file", "Passages"};
   section.blocks = {
       Paragraph{say("{}: {} passages in {} rows; {}", table.file, table.passages.size(), table.rows,
-                    fmt::format("{}", fmt::join(units, ", ")))}};
+                    joined(table.units, ", ", [](const FieldUnit& field) {
+                      return fmt::format("{} [{}]", field.field, field.unit);
+                    }))}};
   List left_out;
   if (table.damaged > 0) {
-    std::vector<std::string> first;
-    for (const BadRow& row : table.first_damaged) {
-      first.push_back(fmt::format("{}:{}: {}", table.file, row.line, row.problem));
-    }
-    left_out.entries.push_back(say("{} damaged row{} left out ({})", table.damaged,
-                                   plural(table.damaged),
-                                   fmt::format("{}", fmt::join(first, "; "))));
+    left_out.entries.push_back(
+        say("{} damaged row{} left out ({})", table.damaged, plural(table.damaged),
+            joined(table.first_damaged, "; ", [&](const BadRow& row) {
+              return fmt::format("{}:{}: {}", table.file, row.line, row.problem);
+            })));
   }
   if (table.duplicated > 0) {
-    std::vector<std::string> first;
-    for (const int at : table.first_duplicated) {
-      first.push_back(fmt::format("{}:{}", table.file, at));
-    }
-    left_out.entries.push_back(say("{} repeated row{} left out ({})", table.duplicated,
-                                   plural(table.duplicated),
-                                   fmt::format("{}", fmt::join(first, ", "))));
+    left_out.entries.push_back(
+        say("{} repeated row{} left out ({})", table.duplicated, plural(table.duplicated),
+            joined(table.first_duplicated, ", ",
+                   [&](int line) { return fmt::format("{}:{}", table.file, line); })));
   }
   if (table.unsorted > 0) {
     left_out.entries.push_back(say("{} row{} out of order, sorted by time (first: {}:{})",
@@ -162,13 +155,9 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
                       "partner, and neighbours may have been exchanged)",
                       pairs.impacts.size(), 100.0 * pairs.purity(),
                       std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
-      {"later", later_words(pairs)}};
-  if (const Sentence words = threshold_words(table, pairs); !words.empty()) {
-    entries.emplace_back("threshold", words);
-  }
-  if (const Sentence words = angle_words(table, pairs); !words.empty()) {
-    entries.emplace_back("angle", words);
-  }
+      {"later", later_words(pairs)},
+      {"threshold", threshold_words(table, pairs)},
+      {"angle", angle_words(table, pairs)}};
   Section section{"impacts", "Impacts", {}, {items(entries)}};
   if (pairs.purity() < doubtful_purity) {
     section.blocks.push_back(Banner{
@@ -197,7 +186,7 @@ Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
                  say("a rebound below {:.4f} m/s at the surface does not reach the plane; "
                      "estimated from the scatter of {e} of the others",
                      flight::slowest_return(pairs.height))},
-                {"captured", Number{static_cast<double>(averages.captured), fixed(0)}, {}},
+                {"captured", whole(averages.captured), {}},
                 {"not assigned", Number{averages.unresolved, fixed(0)},
                  "too few in their bins to be distinguished from chance"}};
   return table;
@@ -249,13 +238,12 @@ Table averages_table(const Averages& averages) {
                    {say("sd({e})")}, {"rebounds"},       {"missing"},         {"captured"}};
   for (std::size_t i = 0; i < std::min(averages.points.size(), most_rows); ++i) {
     const PointMean& point = averages.points[i];
-    const auto count = [](auto value) { return Number{static_cast<double>(value), fixed(0)}; };
     table.rows.push_back(
         {Sentence(point.series), Number{point.diameter / units::um, significant(4)},
          Number{point.velocity, fixed(4)},
          point.rebounds > 0 ? Cell(Number{point.restitution, fixed(4)}) : Cell(),
          point.restitution_sd > 0.0 ? Cell(Number{point.restitution_sd, fixed(4)}) : Cell(),
-         count(point.rebounds), count(point.unpaired), count(point.captured)});
+         whole(point.rebounds), whole(point.unpaired), whole(point.captured)});
   }
   return table;
 }

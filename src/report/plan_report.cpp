@@ -30,8 +30,7 @@ Notation two_digit_percent() {
 }
 
 Cell impacts_cell(const std::optional<double>& impacts) {
-  if (!impacts) return Sentence("no number");
-  return Number{std::ceil(*impacts), fixed(0)};
+  return impacts ? Cell(whole(std::ceil(*impacts))) : Cell("no number");
 }
 
 Sentence name_of_quantity(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
@@ -123,9 +122,8 @@ Table settings_table(const ExperimentPlan& plan) {
     table.rows.push_back(
         {plan.datasets.size() > 1 ? Cell(Sentence(plan.datasets[setting.dataset].id)) : Cell(),
          Sentence(size_text(setting.diameter, planned_unit(plan))),
-         Number{setting.velocity, significant(3)},
-         Number{static_cast<double>(setting.points), fixed(0)},
-         Number{static_cast<double>(setting.points * plan.options.events), fixed(0)},
+         Number{setting.velocity, significant(3)}, whole(setting.points),
+         whole(setting.points * plan.options.events),
          returns ? Cell(Number{setting.restitution, fixed(3)}) : Cell(),
          returns ? Cell(Number{setting.sd, padded(2)}) : Cell(),
          Number{100.0 * setting.captured, fixed(0)}});
@@ -180,11 +178,8 @@ List limits_of_plan(const ExperimentPlan& plan) {
                         {setting.dataset, setting.diameter, setting.velocity});
     all.insert(all.end(), found.begin(), found.end());
   }
-  List list;
-  for (const std::string& sentence : exceeded_limits(all, plan.datasets)) {
-    list.entries.push_back(as_sentence(Sentence(sentence)));
-  }
-  return list;
+  const std::vector<std::string> limits = exceeded_limits(all, plan.datasets);
+  return list_of_sentences({limits.begin(), limits.end()});
 }
 
 std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed) {
@@ -213,20 +208,17 @@ std::string plan_text(const ExperimentPlan& plan, const std::string& assumed) {
 }
 
 std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
-  Document page;
-  page.title = "Plan for " + plan.fit;
+  Document page = page_of("Plan for " + plan.fit, plan.fit, plan_sections(plan, assumed));
   page.heading = "What to measure";
   page.subtitle = page.title;
-  page.name = plan.fit;
-  page.foot = "recoil " + version();
-  page.sections = plan_sections(plan, assumed);
+  page.sections.front().title = "Plan";
   return html_page(page);
 }
 
 namespace {
 
-Json count_or_null(const std::optional<double>& value) {
-  return value ? Json(std::ceil(*value)) : Json(nullptr);
+std::optional<double> whole_number(const std::optional<double>& value) {
+  return value ? std::optional(std::ceil(*value)) : std::nullopt;
 }
 
 Json assumed_json(const ExperimentPlan& plan) {
@@ -259,9 +251,9 @@ Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) 
   out["unit"] = quantity.unit;
   out["relative_error"] = number_or_null(quantity.error);
   out["relative_error_even"] = number_or_null(quantity.plain_error);
-  out["impacts"] = count_or_null(quantity.impacts);
-  out["impacts_even"] = count_or_null(quantity.plain_impacts);
-  out["impacts_alone"] = count_or_null(quantity.alone_impacts);
+  out["impacts"] = as_json(whole_number(quantity.impacts));
+  out["impacts_even"] = as_json(whole_number(quantity.plain_impacts));
+  out["impacts_alone"] = as_json(whole_number(quantity.alone_impacts));
   out["learnt_at"] = Json::array();
   for (const LearntAt& at : quantity.learnt_at) {
     Json place = place_json(plan, at.dataset, at.diameter, at.velocity);

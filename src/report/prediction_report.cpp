@@ -101,8 +101,7 @@ Table misses_table(const PolydispersePrediction& mixture) {
   table.caption = "Distance of the points from each curve";
   table.columns = {{"curve"}, {say("rms of {e}")}, {"points with a prediction"}};
   const auto add = [&](const Sentence& curve, const CurveMiss& miss) {
-    table.rows.push_back({curve, cell_if(number_if(miss.rmse, padded(2))),
-                          Number{static_cast<double>(miss.points), fixed(0)}});
+    table.rows.push_back({curve, cell_if(number_if(miss.rmse, padded(2))), whole(miss.points)});
   };
   add(say("{d10} alone"), mixture.miss_single);
   for (std::size_t c = 0; c < all_conventions.size(); ++c) {
@@ -160,14 +159,6 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
   return words;
 }
 
-List mixture_list(const PolydispersePrediction& mixture) {
-  List list;
-  for (const Sentence& words : mixture_words(mixture)) {
-    list.entries.push_back(as_sentence(words));
-  }
-  return list;
-}
-
 std::vector<Section> prediction_sections(const Analysis& analysis,
                                          const PolydispersePrediction& mixture) {
   const Dataset& dataset = analysis.datasets[mixture.dataset];
@@ -181,7 +172,7 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
              {"measuring plane",
               say("{} mm above the surface: rebounds below {} m/s are not detected",
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
-  said.blocks.emplace_back(mixture_list(mixture));
+  said.blocks.emplace_back(list_of_sentences(mixture_words(mixture)));
   return {std::move(said),
           {"averages", "Weighted averages", {}, {averages_table(mixture)}},
           {"misses", "Distance of the points", {}, {misses_table(mixture)}}};
@@ -190,31 +181,22 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
 }  // namespace
 
 std::string words_of(CaptureConvention convention) {
-  switch (convention) {
-    case CaptureConvention::captured_as_zero:
-      return "captured spheres count as e = 0";
-    case CaptureConvention::captured_left_out:
-      return "captured spheres left out";
-    case CaptureConvention::unseen_left_out:
-      return "spheres left out also when too slow to be seen";
-  }
-  return "";
+  using enum CaptureConvention;
+  static constexpr Phrase<CaptureConvention> phrases[] = {
+      {captured_as_zero, "captured spheres count as e = 0"},
+      {captured_left_out, "captured spheres left out"},
+      {unseen_left_out, "spheres left out also when too slow to be seen"}};
+  return phrase_for(phrases, convention).words;
 }
 
 std::string words_of(CaptureModel model) {
-  switch (model) {
-    case CaptureModel::fit:
-      return "this fit";
-    case CaptureModel::jkr:
-      return "JKR";
-    case CaptureModel::thornton_ning:
-      return "Thornton & Ning, yield";
-    case CaptureModel::dahneke:
-      return "Dahneke, eq. 1";
-    case CaptureModel::wall:
-      return "Wall et al., eq. 4";
-  }
-  return "";
+  using enum CaptureModel;
+  static constexpr Phrase<CaptureModel> phrases[] = {{fit, "this fit"},
+                                                     {jkr, "JKR"},
+                                                     {thornton_ning, "Thornton & Ning, yield"},
+                                                     {dahneke, "Dahneke, eq. 1"},
+                                                     {wall, "Wall et al., eq. 4"}};
+  return phrase_for(phrases, model).words;
 }
 
 Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture) {
@@ -241,12 +223,12 @@ Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mi
       "rebounds "
       "below {} m/s, which do not reach the measuring plane.",
       mixture.simulated, percent(mixture.level), number(mixture.slowest_seen, 3));
-  plot::Picture picture;
-  picture.name = fmt::format("mixture-average-{}", mixture.dataset + 1);
-  picture.title = fmt::format("{}, {}", shown.heading, analysis.datasets[mixture.dataset].id);
-  picture.height = 390;
-  picture.plots = {std::move(shown)};
-  return figure_of(std::move(picture), caption);
+  const std::string title = shown.heading + ", " + analysis.datasets[mixture.dataset].id;
+  return figure_of({.name = fmt::format("mixture-average-{}", mixture.dataset + 1),
+                    .title = title,
+                    .height = 390,
+                    .plots = {std::move(shown)}},
+                   caption);
 }
 
 std::string text_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
@@ -256,8 +238,8 @@ std::string text_prediction(const Analysis& analysis, const PolydispersePredicti
 std::vector<Block> mixture_blocks(const Analysis& analysis) {
   std::vector<Block> blocks;
   for (const PolydispersePrediction& mixture : analysis.mixtures) {
-    append(blocks, {Figures{{mixture_figure(analysis, mixture)}}, mixture_list(mixture),
-                    misses_table(mixture)});
+    append(blocks, {Figures{{mixture_figure(analysis, mixture)}},
+                    list_of_sentences(mixture_words(mixture)), misses_table(mixture)});
   }
   return blocks;
 }
@@ -272,19 +254,9 @@ std::string cells(const BandedValue& at) {
   return fmt::format(",{},{},{}", cell(at.value), cell(at.lower), cell(at.upper));
 }
 
-Json value_or_null(const std::optional<double>& value) {
-  return value ? number_or_null(*value) : Json();
-}
-
 Json banded_json(const BandedValue& at) {
-  Json out;
-  out["value"] = value_or_null(at.value);
-  out["band"] = at.lower && at.upper ? Json::array({*at.lower, *at.upper}) : Json();
-  return out;
-}
-
-Json miss_json(const CurveMiss& miss) {
-  return {{"rmse", value_or_null(miss.rmse)}, {"points", miss.points}};
+  return {{"value", as_json(at.value)},
+          {"band", at.lower && at.upper ? Json::array({*at.lower, *at.upper}) : Json()}};
 }
 
 }  // namespace
@@ -339,10 +311,10 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
   Json conventions;
   for (std::size_t c = 0; c < all_conventions.size(); ++c) {
     conventions[to_string(all_conventions[c])] = {{"means", words_of(all_conventions[c])},
-                                                  {"miss", miss_json(mixture.miss[c])}};
+                                                  {"miss", as_json(mixture.miss[c])}};
   }
   out["conventions"] = conventions;
-  out["d10_alone"] = {{"miss", miss_json(mixture.miss_single)}};
+  out["d10_alone"] = {{"miss", as_json(mixture.miss_single)}};
   Json sizes = Json::array();
   for (const SizeCurve& size : mixture.size_curves) {
     sizes.push_back({{"name", to_string(size.size)},

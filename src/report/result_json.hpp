@@ -34,10 +34,25 @@ struct RestitutionEntries {
 };
 RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets);
 
+/// Puts them into `file`, a FitFile or DiagnosisFile.
+template <class File>
+void set_restitution(File& file, const std::vector<Dataset>& datasets) {
+  RestitutionEntries entries = restitution_entries(datasets);
+  file.restitution_summary = std::move(entries.means);
+  file.velocity_dependence = std::move(entries.velocity);
+  file.series_differ = std::move(entries.series);
+}
+
 /// @pre analysis.fitted.usable
 FitFile fit_file(const Analysis& analysis);
 /// The text of `fit.json`.
 std::string fit_json(const Analysis& analysis);
+
+/// The text of `posterior.csv`, the joint draws of the posterior: one column for each slot that
+/// moves and each capture velocity, SI units; before them the numbers of the chain and of the draw
+/// in it, after them the scale of the noise where it is unknown, ln likelihood and ln prior. Empty
+/// without a posterior.
+std::string posterior_csv(const Analysis& analysis);
 
 DiagnosisFile diagnosis_file(const Diagnosis& diagnosis);
 /// The text of `diagnosis.json`.

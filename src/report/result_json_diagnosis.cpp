@@ -158,10 +158,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
   for (const Dataset& dataset : d.datasets) {
     out.datasets.push_back({dataset.id, dataset.provenance, dataset.points.size(), dataset.sha256});
   }
-  RestitutionEntries restitution = restitution_entries(d.datasets);
-  out.restitution_summary = std::move(restitution.means);
-  out.velocity_dependence = std::move(restitution.velocity);
-  out.series_differ = std::move(restitution.series);
+  set_restitution(out, d.datasets);
   out.verdict = d.verdict();
   out.headline = headline(d);
   out.text = answer_words(d);

@@ -1,4 +1,4 @@
-// From an Analysis to the contents of fit.json.
+// From an Analysis to the contents of fit.json and posterior.csv.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -642,10 +642,7 @@ FitFile fit_file(const Analysis& a) {
   out.provenance_sentence = all_provenance_sentences(a.datasets);
   out.dataset = joint_entry(a.datasets);
   for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
-  RestitutionEntries restitution = restitution_entries(a.datasets);
-  out.restitution_summary = std::move(restitution.means);
-  out.velocity_dependence = std::move(restitution.velocity);
-  out.series_differ = std::move(restitution.series);
+  set_restitution(out, a.datasets);
   for (const LossFit& law : a.losses) out.loss_laws.push_back({law.id, law.delta_aicc});
   out.options = options_of(a);
   out.model = model_of(a);
@@ -695,6 +692,35 @@ FitFile fit_file(const Analysis& a) {
   out.curve = curve_of(a);
   out.residuals = residuals_of(a);
   return out;
+}
+
+std::string posterior_csv(const Analysis& a) {
+  const std::optional<PosteriorResult>& found = a.uncertainty.posterior;
+  std::string text;
+  if (!found || !found->available()) return text;
+  text += "chain,draw";
+  std::vector<std::size_t> moving;
+  for (std::size_t j = 0; j < a.fitted.model.slots.size(); ++j) {
+    if (!a.fitted.model.slots[j].moves()) continue;
+    text += fmt::format(",\"{}\"", a.fitted.model.slots[j].label());
+    moving.push_back(j);
+  }
+  for (const CaptureEstimate& at : a.uncertainty.capture) {
+    text += fmt::format(",\"V*({:.4g} um{})\"", at.diameter / units::um,
+                        a.datasets.size() > 1 ? ", " + a.datasets[at.dataset].id : "");
+  }
+  text += found->scale.empty() ? "" : ",noise_scale";
+  text += ",log_likelihood,log_prior\n";
+  for (std::size_t k = 0; k < found->draws.size(); ++k) {
+    text += fmt::format("{},{}", k / found->length + 1, k % found->length + 1);
+    for (const std::size_t j : moving) text += fmt::format(",{:.9g}", found->draws[k][j]);
+    for (const double v : found->capture_draws[k]) {
+      text += std::isfinite(v) ? fmt::format(",{:.9g}", v) : ",";
+    }
+    if (!found->scale.empty()) text += fmt::format(",{:.9g}", found->scale[k]);
+    text += fmt::format(",{:.9g},{:.9g}\n", found->log_likelihood[k], found->log_prior[k]);
+  }
+  return text;
 }
 
 std::string fit_json(const Analysis& analysis) { return text_of(fit_file(analysis), 1); }

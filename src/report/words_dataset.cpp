@@ -37,19 +37,14 @@ std::string tabor_words(const Validity& v) {
 }
 
 const char* short_name(ValidityQuantity quantity) {
-  switch (quantity) {
-    case ValidityQuantity::contact_radius:
-      return "contact radius over that of the sphere";
-    case ValidityQuantity::pressure_modulus:
-      return "peak pressure over E*";
-    case ValidityQuantity::pressure_yield:
-      return "peak pressure over the yield pressure";
-    case ValidityQuantity::tabor:
-      return "Tabor parameter";
-    case ValidityQuantity::wave_transits:
-      return "contact time over a wave's transit";
-  }
-  return "";
+  using enum ValidityQuantity;
+  static constexpr Phrase<ValidityQuantity> phrases[] = {
+      {contact_radius, "contact radius over that of the sphere"},
+      {pressure_modulus, "peak pressure over E*"},
+      {pressure_yield, "peak pressure over the yield pressure"},
+      {tabor, "Tabor parameter"},
+      {wave_transits, "contact time over a wave's transit"}};
+  return phrase_for(phrases, quantity).words;
 }
 
 // ---- import ------------------------------------------------------------------------------------
@@ -71,39 +66,27 @@ std::string air_sentence(const AirShare& air) {
 }  // namespace
 
 std::string_view words_of_constant(Constant constant) {
-  switch (constant) {
-    case Constant::density:
-      return "density";
-    case Constant::youngs_modulus:
-      return "Young's modulus";
-    case Constant::poisson_ratio:
-      return "Poisson's ratio";
-    case Constant::surface_energy:
-      return "surface energy";
-    case Constant::gilman_factor:
-      return "surface energy by Gilman's estimate";
-    case Constant::stiffness_K:
-      return "K";
-    case Constant::adhesion_energy:
-      return "adhesion energy";
-    case Constant::adhesion_force_f0:
-      return "f0";
-  }
-  return "";
+  using enum Constant;
+  static constexpr Phrase<Constant> phrases[] = {
+      {density, "density"},
+      {youngs_modulus, "Young's modulus"},
+      {poisson_ratio, "Poisson's ratio"},
+      {surface_energy, "surface energy"},
+      {gilman_factor, "surface energy by Gilman's estimate"},
+      {stiffness_K, "K"},
+      {adhesion_energy, "adhesion energy"},
+      {adhesion_force_f0, "f0"}};
+  return phrase_for(phrases, constant).words;
 }
 
 std::string provenance_sentence(Provenance provenance) {
-  switch (provenance) {
-    case Provenance::measured:
-      return "These points were measured.";
-    case Provenance::digitised:
-      return "These points were read off a published figure, which adds a reading error.";
-    case Provenance::reconstruction:
-      return "Computed points, not measured: they test the method only.";
-    case Provenance::synthetic:
-      return "These points were simulated with known parameters to test the method.";
-  }
-  return "";
+  using enum Provenance;
+  static constexpr Phrase<Provenance> phrases[] = {
+      {measured, "These points were measured."},
+      {digitised, "These points were read off a published figure, which adds a reading error."},
+      {reconstruction, "Computed points, not measured: they test the method only."},
+      {synthetic, "These points were simulated with known parameters to test the method."}};
+  return phrase_for(phrases, provenance).words;
 }
 
 std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets) {
@@ -170,18 +153,15 @@ std::string stated_errors_words(const ImpactSystem& system) {
 }
 
 std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {
-  std::vector<std::string> words;
-  for (const LeftOverride& one : left_out) {
-    if (one.key == "stiffness_K") {
-      words.push_back(fmt::format("stiffness_K = {:.4g} GPa (derived: {:.4g} GPa)",
-                                  one.stated / units::GPa, one.derived / units::GPa));
-    } else {
-      words.push_back(fmt::format("{} = {:.4g} {} (derived: {:.4g} {})", one.key, one.stated,
-                                  one.key == "adhesion_energy" ? "J/m2" : "N/m", one.derived,
-                                  one.key == "adhesion_energy" ? "J/m2" : "N/m"));
-    }
-  }
-  return fmt::format("ignored, as the materials contradict it: {}", fmt::join(words, ", "));
+  return "ignored, as the materials contradict it: " +
+         joined(left_out, ", ", [](const LeftOverride& one) {
+           const double unit = one.key == "stiffness_K" ? units::GPa : 1.0;
+           return fmt::format("{} = {:.4g} {name} (derived: {:.4g} {name})", one.key,
+                              one.stated / unit, one.derived / unit,
+                              fmt::arg("name", one.key == "stiffness_K"       ? "GPa"
+                                               : one.key == "adhesion_energy" ? "J/m2"
+                                                                              : "N/m"));
+         });
 }
 
 std::string validity_sentence(const Validity& v) {
@@ -216,24 +196,16 @@ std::string validity_sentence(const Validity& v) {
 
 std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
                                          const std::vector<Dataset>& datasets) {
-  std::vector<const Validity*> worst;  // of each quantity
+  std::vector<Validity> worst;  // of each quantity
   for (const Validity& one : validity) {
-    if (!one.exceeded()) continue;
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Validity* other) {
-      return other->quantity == one.quantity;
-    });
-    if (same == worst.end()) {
-      worst.push_back(&one);
-    } else if (one.limit_is_least() ? one.value < (*same)->value : one.value > (*same)->value) {
-      *same = &one;
-    }
+    if (one.exceeded()) keep_worst(one, worst);
   }
   std::vector<std::string> sentences;
-  for (const Validity* const one : worst) {
-    sentences.push_back(validity_sentence(*one));
-    if (datasets.size() < 2 || one->dataset >= datasets.size()) continue;
+  for (const Validity& one : worst) {
+    sentences.push_back(validity_sentence(one));
+    if (datasets.size() < 2 || one.dataset >= datasets.size()) continue;
     sentences.back() =
-        fmt::format("on {}, {}", short_name(datasets, one->dataset), sentences.back());
+        fmt::format("on {}, {}", short_name(datasets, one.dataset), sentences.back());
   }
   return sentences;
 }
@@ -312,14 +284,11 @@ std::string note_sentence(const ImportNote& note) {
     case ImportRemark::bounces_missing:
       return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
                          note.count, note.count == 1 ? "pair" : "pairs");
-    case ImportRemark::release_heights: {
-      std::vector<std::string> heights;
-      for (const ReleaseCheck& check : note.releases) heights.push_back(release_words(check));
+    case ImportRemark::release_heights:
       return fmt::format(
           "check of the release heights (extra fall that makes the first bounce equal the second): "
           "{}. An equal difference at all heights points to an offset of the scale",
-          fmt::join(heights, "; "));
-    }
+          joined(note.releases, "; ", release_words));
     case ImportRemark::impacts_skipped:
       return fmt::format("{} impact{} left out: fewer than four samples of free flight on one side",
                          note.count, note.count == 1 ? "" : "s");
@@ -353,8 +322,6 @@ namespace {
 
 constexpr std::size_t most_series = 4;  // in a sentence
 constexpr double shown_level = 0.05;    // of a p-value that is called a difference
-
-std::string p_of_summary(double p) { return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p); }
 
 /// The series of a mean, with its dataset where there are several, and its size where its name does
 /// not tell it.
@@ -394,7 +361,7 @@ Sentence dependence_words(const RestitutionSummary& summary) {
     why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
     return say("{}: the dependence of {e} on {V} is unknown.", why);
   }
-  const std::string p = p_of_summary(*effect.p_value);
+  const std::string p = p_words(*effect.p_value);
   const bool steady = *effect.p_value < shown_level;
   const bool bent = summary.bend.value_or(1.0) < shown_level;
   if (!steady && !bent) {
@@ -406,7 +373,7 @@ Sentence dependence_words(const RestitutionSummary& summary) {
   const Sentence slope =
       say("by {:.2g} {} per decade of {V} ({})", sign * *effect.value, ends_words(effect, sign), p);
   const Sentence no_slope =
-      say("without a steady rise or fall ({})", p_of_summary(summary.bend.value_or(1.0)));
+      say("without a steady rise or fall ({})", p_words(summary.bend.value_or(1.0)));
   if (!spans_a_decade(summary)) {
     return steady ? say("{e} {} {}.", goes, slope) : say("{e} varies with {V}, {}.", no_slope);
   }
@@ -444,7 +411,7 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
   sentences.push_back(dependence_words(summary));
   const TestedEffect& differ = summary.series;
   if (differ.p_value) {
-    const std::string p = p_of_summary(*differ.p_value);
+    const std::string p = p_words(*differ.p_value);
     const auto name = [&](std::size_t k) {
       return series_words(summary.means[summary.most_different[k]], summary, datasets);
     };
@@ -473,7 +440,7 @@ Table restitution_table(const RestitutionSummary& summary, const std::vector<Dat
                           Sentence(size_text(mean.diameter, sizes)),
                           mean.setting.empty() ? Cell() : Cell(Sentence(mean.setting)),
                           mean.velocity ? Cell(Number{*mean.velocity, significant(4)}) : Cell(),
-                          mean_words(mean), Number{static_cast<double>(mean.points), fixed(0)}});
+                          mean_words(mean), whole(mean.points)});
   }
   return table;
 }

@@ -56,8 +56,6 @@ std::vector<SeriesSummary> summarise(const Dataset& dataset) {
   return summaries;
 }
 
-Cell count_cell(long long count) { return Number{static_cast<double>(count), fixed(0)}; }
-
 Sentence material_words(const Material& material) {
   Sentence words = material.name.empty() ? "unnamed" : material.name;
   if (material.density > 0.0) words += say(", density {:g} {kg/m3}", material.density);
@@ -103,39 +101,31 @@ Sentence condition_words(const ImpactSystem& system) {
 }
 
 Sentence column_words(const Dataset& dataset) {
-  std::vector<Sentence> names;
-  for (const DataColumn& column : dataset.columns) {
-    names.emplace_back(column.unit.empty() ? column.name
-                                           : fmt::format("{} [{}]", column.name, column.unit));
-  }
-  return join(names, ", ");
+  return joined(dataset.columns, ", ", [](const DataColumn& column) {
+    return column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+  });
 }
 
 List plain_list(const std::vector<std::string>& entries) {
-  List list;
-  for (const std::string& entry : entries) list.entries.emplace_back(entry);
-  return list;
+  return {{entries.begin(), entries.end()}};
 }
 
 }  // namespace
 
 Table dataset_table(const Dataset& dataset) {
-  std::vector<std::pair<Sentence, Cell>> entries = {{"dataset", Sentence(dataset.id)}};
-  const auto entry = [&](const char* name, const Sentence& words) {
-    if (!words.empty()) entries.emplace_back(name, words);
-  };
-  entry("title", dataset.title);
-  entry("provenance", to_string(dataset.provenance));
-  entry("particle", material_words(dataset.system.particle));
-  entry("surface", material_words(dataset.system.surface));
-  entry("stated", override_words(dataset.system));
-  entry("known to", stated_errors_words(dataset.system));
-  entry("conditions", condition_words(dataset.system));
-  if (dataset.mixed_sizes) entry("sizes", mixed_sizes_words(*dataset.mixed_sizes));
-  entry("columns", column_words(dataset));
-  entry("points", say("{} in {} series", dataset.points.size(), dataset.series.size()));
-  entry("sha256", dataset.sha256);
-  return items(entries);
+  return items(
+      {{"dataset", Sentence(dataset.id)},
+       {"title", Sentence(dataset.title)},
+       {"provenance", Sentence(to_string(dataset.provenance))},
+       {"particle", material_words(dataset.system.particle)},
+       {"surface", material_words(dataset.system.surface)},
+       {"stated", override_words(dataset.system)},
+       {"known to", Sentence(stated_errors_words(dataset.system))},
+       {"conditions", condition_words(dataset.system)},
+       {"sizes", Sentence(dataset.mixed_sizes ? mixed_sizes_words(*dataset.mixed_sizes) : "")},
+       {"columns", column_words(dataset)},
+       {"points", say("{} in {} series", dataset.points.size(), dataset.series.size())},
+       {"sha256", Sentence(dataset.sha256)}});
 }
 
 Table series_table(const Dataset& dataset) {
@@ -147,9 +137,9 @@ Table series_table(const Dataset& dataset) {
   const std::vector<SeriesSummary> summaries = summarise(dataset);
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const SeriesSummary& s = summaries[i];
-    table.rows.push_back({Sentence(dataset.series[i]), s.diameter.cell(),
-                          count_cell(static_cast<long long>(s.points)), s.velocity.cell(),
-                          s.restitution.cell(), count_cell(s.events), count_cell(s.captured)});
+    table.rows.push_back({Sentence(dataset.series[i]), s.diameter.cell(), whole(s.points),
+                          s.velocity.cell(), s.restitution.cell(), whole(s.events),
+                          whole(s.captured)});
   }
   return table;
 }

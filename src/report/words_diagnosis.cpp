@@ -28,6 +28,39 @@ std::string value_words(const FoundParameter& p) {
                     : fmt::format("{:.3g}", p.value);
 }
 
+/// Why a candidate is set aside, for a table and in a sentence; {} is the p-value of what remains.
+struct SetAsideReason {
+  SetAside value;
+  const char* brief;
+  const char* full;
+};
+
+const SetAsideReason& reason_of(SetAside why) {
+  using enum SetAside;
+  static constexpr SetAsideReason reasons[] = {
+      {description, "a description", "it is a description, not a cause"},
+      {gains_too_little, "gains too little", "it gains less than its parameters cost"},
+      {chance, "gains no more than chance", ""},
+      {not_possible, "not possible", ""},
+      {batch_is_size, "may be an effect of size",
+       "every series has its own diameter and the offsets vary smoothly with it, so batch "
+       "offsets and an unknown effect of size look alike"},
+      {within_a_step, "may be rounding",
+       "the heights were rounded to a step, and rounding looks like an error of up to half "
+       "a step"},
+      {leaves_structure, "leaves structure (p = {:.2g})",
+       "structure remains in the residuals (p = {:.2g})"},
+      {predicts_no_better, "predicts no better",
+       "it predicts held-out sizes or targets no better than the base model"},
+      {one_would_do, "one is enough", "one of the two explains the misfit as well alone"},
+      {one_hardly_takes_part, "one contributes too little",
+       "structure remains in the residuals (p = {:.2g}), and one of the two explains no more "
+       "of the misfit than an error in the law of the other could"},
+      {at_the_edge, "parameter at its limit", "a parameter lies at the limit of what is possible"},
+      {far_behind, "far behind", "it fits far worse than the best two"}};
+  return phrase_for(reasons, why);
+}
+
 }  // namespace
 
 std::string p_words(double p, int simulated) {
@@ -46,38 +79,14 @@ std::string doing_words(const NextExperiment& experiment) {
 }
 
 std::string because_words(const CandidateResult& c) {
-  switch (c.set_aside.value_or(SetAside::not_possible)) {
-    case SetAside::description:
-      return "it is a description, not a cause";
-    case SetAside::gains_too_little:
-      return "it gains less than its parameters cost";
-    case SetAside::chance:
-      return fmt::format(
-          "by chance alone the best of all candidates gains as much in {:.0f} % of data sets",
-          100.0 * c.p_value.value_or(1.0));
-    case SetAside::not_possible:
-      break;
-    case SetAside::batch_is_size:
-      return "every series has its own diameter and the offsets vary smoothly with it, so batch "
-             "offsets and an unknown effect of size look alike";
-    case SetAside::within_a_step:
-      return "the heights were rounded to a step, and rounding looks like an error of up to half a "
-             "step";
-    case SetAside::leaves_structure:
-      return fmt::format("structure remains in the residuals (p = {:.2g})", c.remaining_p);
-    case SetAside::predicts_no_better:
-      return "it predicts held-out sizes or targets no better than the base model";
-    case SetAside::one_would_do:
-      return "one of the two explains the misfit as well alone";
-    case SetAside::one_hardly_takes_part:
-      return fmt::format(
-          "structure remains in the residuals (p = {:.2g}), and one of the two explains no more of "
-          "the misfit than an error in the law of the other could",
-          c.remaining_p);
-    case SetAside::at_the_edge:
-      return "a parameter lies at the limit of what is possible";
-    case SetAside::far_behind:
-      return "it fits far worse than the best two";
+  const SetAside why = c.set_aside.value_or(SetAside::not_possible);
+  if (why == SetAside::chance) {
+    return fmt::format(
+        "by chance alone the best of all candidates gains as much in {:.0f} % of data sets",
+        100.0 * c.p_value.value_or(1.0));
+  }
+  if (why != SetAside::not_possible) {
+    return fmt::format(fmt::runtime(reason_of(why).full), c.remaining_p);
   }
   for (const FoundParameter& parameter : c.parameters) {
     if (parameter.plausible()) continue;
@@ -93,12 +102,12 @@ std::string parameters_words(const CandidateResult& candidate) {
   std::vector<FoundParameter> all = candidate.parameters;
   if (std::all_of(all.begin(), all.end(), [](const FoundParameter& p) { return p.sd == 0.0; })) {
     std::erase_if(all, [](const FoundParameter& p) { return !p.stated_by; });
-    std::vector<std::string> words;
-    for (const FoundParameter& p : all) {
-      words.push_back(fmt::format("{} = {:.3g}{}, as the {} says", p.label, p.value,
-                                  unit_suffix(p.unit), condition_words(*p.stated_by)));
+    if (!all.empty()) {
+      return joined(all, "; ", [](const FoundParameter& p) {
+        return fmt::format("{} = {:.3g}{}, as the {} says", p.label, p.value, unit_suffix(p.unit),
+                           condition_words(*p.stated_by));
+      });
     }
-    if (!words.empty()) return fmt::format("{}", fmt::join(words, "; "));
     all = candidate.parameters;
   }
   std::erase_if(all, [&](const FoundParameter& p) {
@@ -113,11 +122,9 @@ std::string parameters_words(const CandidateResult& candidate) {
     return fmt::format("{} values from {} = {:.3g} to {} = {:.3g}", all.size(), low->label,
                        low->value, high->label, high->value);
   }
-  std::vector<std::string> words;
-  for (const FoundParameter& p : all) {
-    words.push_back(fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit)));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
+  return joined(all, ", ", [](const FoundParameter& p) {
+    return fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit));
+  });
 }
 
 std::string cause_words(const std::vector<std::string>& ids, const char* between) {
@@ -132,23 +139,16 @@ std::string cause_words(const std::vector<std::string>& ids, const char* between
 }
 
 std::string words_of(StructureQuestion question) {
-  switch (question) {
-    case StructureQuestion::scatter:
-      return "the residuals are larger than the stated deviations";
-    case StructureQuestion::size:
-      return "whole diameters lie above or below the model";
-    case StructureQuestion::trend:
-      return "residuals rise or fall with velocity";
-    case StructureQuestion::curvature:
-      return "residuals bend with velocity";
-    case StructureQuestion::capture:
-      return "the model has the wrong curvature near capture";
-    case StructureQuestion::runs:
-      return "neighbouring points miss on the same side";
-    case StructureQuestion::smooth:
-      return "a smooth function of velocity and size describes the residuals";
-  }
-  return "";
+  using enum StructureQuestion;
+  static constexpr Phrase<StructureQuestion> phrases[] = {
+      {scatter, "the residuals are larger than the stated deviations"},
+      {size, "whole diameters lie above or below the model"},
+      {trend, "residuals rise or fall with velocity"},
+      {curvature, "residuals bend with velocity"},
+      {capture, "the model has the wrong curvature near capture"},
+      {runs, "neighbouring points miss on the same side"},
+      {smooth, "a smooth function of velocity and size describes the residuals"}};
+  return phrase_for(phrases, question).words;
 }
 
 std::string fold_words(const Fold& fold, const std::vector<Dataset>& datasets) {
@@ -192,33 +192,7 @@ std::string set_aside_words(const CandidateResult& c) {
 
 std::string short_set_aside_words(const CandidateResult& c) {
   if (c.explains() || !c.set_aside) return "";
-  switch (*c.set_aside) {
-    case SetAside::description:
-      return "a description";
-    case SetAside::gains_too_little:
-      return "gains too little";
-    case SetAside::chance:
-      return "gains no more than chance";
-    case SetAside::not_possible:
-      return "not possible";
-    case SetAside::batch_is_size:
-      return "may be an effect of size";
-    case SetAside::within_a_step:
-      return "may be rounding";
-    case SetAside::leaves_structure:
-      return fmt::format("leaves structure (p = {:.2g})", c.remaining_p);
-    case SetAside::predicts_no_better:
-      return "predicts no better";
-    case SetAside::one_would_do:
-      return "one is enough";
-    case SetAside::one_hardly_takes_part:
-      return "one contributes too little";
-    case SetAside::at_the_edge:
-      return "parameter at its limit";
-    case SetAside::far_behind:
-      return "far behind";
-  }
-  return "";
+  return fmt::format(fmt::runtime(reason_of(*c.set_aside).brief), c.remaining_p);
 }
 
 std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {
@@ -314,15 +288,7 @@ std::string title_of(const std::string& id) {
 }
 
 std::string titles_of(const std::vector<std::string>& ids, const char* between) {
-  std::vector<std::string> titles;
-  for (const std::string& id : ids) titles.push_back(title_of(id));
-  return fmt::format("{}", fmt::join(titles, between));
-}
-
-std::string short_titles(const std::vector<std::string>& ids) {
-  std::vector<std::string> titles;
-  for (const std::string& id : ids) titles.push_back(words_of(id));
-  return fmt::format("{}", fmt::join(titles, ", "));
+  return joined(ids, between, title_of);
 }
 
 std::string gain_words(const Diagnosis& d) {
@@ -420,8 +386,6 @@ std::string errors_words(const UnstatedErrors& errors) {
 std::string rival_errors_words(const Diagnosis& d) {
   const std::vector<UnstatedErrors> rivals = rival_errors(d);
   if (rivals.empty()) return "";
-  std::vector<std::string> words;
-  for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
   const ExtendedModel* const extended = d.extended();
   const double behind = extended ? rivals.front().delta_aicc - extended->cause.delta_aicc : 0.0;
   return fmt::format(
@@ -430,7 +394,7 @@ std::string rival_errors_words(const Diagnosis& d) {
       : behind > d.options.margin
           ? fmt::format("less well (AICc larger by {:.0f} than with two causes)", behind)
           : "as well",
-      fmt::join(words, "; "));
+      joined(rivals, "; ", errors_words));
 }
 
 /// What the residuals show.
@@ -510,7 +474,8 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
     return fmt::format(
         "With two causes together ({}) no structure remains, but one alone ({}) comes so close "
         "that it is as likely if the error of its law is larger than assumed.",
-        words_of(best.name()), short_titles(several.alone));
+        words_of(best.name()),
+        joined(several.alone, ", ", [](const std::string& id) { return words_of(id); }));
   }
   if (best.added.size() > 1) {
     return several.common.empty()
@@ -672,11 +637,11 @@ std::vector<std::string> impossible_words(const Diagnosis& d) {
     if (said || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
     const bool listed = std::find(rivals.begin(), rivals.end(), c.candidate.name()) != rivals.end();
-    words.push_back(as_sentence(listed
-                                    ? fmt::format("{} is listed though hardly plausible ({})",
-                                                  words_of(c.candidate.name()), set_aside_words(c))
-                                    : fmt::format("{} is set aside because {}",
-                                                  words_of(c.candidate.name()), because_words(c))));
+    words.push_back(
+        plain_text(as_sentence(listed ? say("{} is listed though hardly plausible ({})",
+                                            words_of(c.candidate.name()), set_aside_words(c))
+                                      : say("{} is set aside because {}",
+                                            words_of(c.candidate.name()), because_words(c)))));
   }
   return words;
 }
@@ -698,11 +663,9 @@ std::string method_words(const Diagnosis& d) {
   for (const std::string& id : d.causes()) {
     const Mechanism* const mechanism = find_mechanism(id);
     if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
-    std::vector<std::string> methods;
-    for (const Method method : mechanism->info.methods) {
-      methods.push_back(words_of(to_string(method)));
-    }
-    words.push_back(fmt::format("{} only with {}", words_of(id), fmt::join(methods, " or ")));
+    words.push_back(fmt::format(
+        "{} only with {}", words_of(id),
+        joined(mechanism->info.methods, " or ", [](Method m) { return words_of(to_string(m)); })));
   }
   if (!unknown || words.empty()) return "";
   return fmt::format(
@@ -714,19 +677,18 @@ std::string method_words(const Diagnosis& d) {
 /// Which points were set aside, and what the answer would be with them; empty where none were.
 std::string outlying_words(const Diagnosis& d) {
   if (d.outlying.empty()) return "";
-  std::vector<std::string> rows;
-  for (const OutlyingPoint& point : d.outlying) {
-    rows.push_back(fmt::format(
+  const std::string rows = joined(d.outlying, "; ", [&](const OutlyingPoint& point) {
+    return fmt::format(
         "line {}{} ({} at {:.3g} m/s, e = {:.3g}: {:+.1f} standard deviations)", point.line,
         d.datasets.size() > 1 ? " of " + d.datasets[point.dataset].id : "",
-        diameter_words(point.diameter), point.velocity, point.restitution, point.residual));
-  }
+        diameter_words(point.diameter), point.velocity, point.restitution, point.residual);
+  });
+  const bool one = d.outlying.size() == 1;
   return fmt::format(
       "{} so far from the prediction of the others that {} set aside: {}. With {} the verdict "
       "would be {}.",
-      rows.size() == 1 ? "One point lies" : fmt::format("{} points lie", rows.size()),
-      rows.size() == 1 ? "it was" : "they were", fmt::join(rows, "; "),
-      rows.size() == 1 ? "it" : "them", verdict_words(*d.for_all));
+      one ? "One point lies" : fmt::format("{} points lie", d.outlying.size()),
+      one ? "it was" : "they were", rows, one ? "it" : "them", verdict_words(*d.for_all));
 }
 
 }  // namespace

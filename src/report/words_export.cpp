@@ -32,10 +32,10 @@ std::string why_no_force(ExportTarget target, const ExportedImpact& impact) {
     return "LIGGGHTS has no way to state a force law in its input";
   }
   if (impact.of_nature.empty()) return "the program cannot run this law of adhesion";
-  std::vector<std::string> ids;
-  for (const Mechanism* mechanism : impact.of_nature) ids.emplace_back(mechanism->info.id);
-  return fmt::format("{} {} no force in the equation of motion", fmt::join(ids, " and "),
-                     ids.size() == 1 ? "is" : "are");
+  return fmt::format(
+      "{} {} no force in the equation of motion",
+      joined(impact.of_nature, " and ", [](const Mechanism* one) { return one->info.id; }),
+      impact.of_nature.size() == 1 ? "is" : "are");
 }
 
 std::string range_words(const ExportRequest& request) {
@@ -51,11 +51,8 @@ std::string capture_lost(const ExportedImpact& impact) {
 }
 
 void wrap_into(std::vector<std::string>& lines, const std::string& text) {
-  const std::string wrapped = wrap(text, comment_columns, 0);
-  for (std::size_t at = 0; at <= wrapped.size();) {
-    const std::size_t end = std::min(wrapped.find('\n', at), wrapped.size());
-    lines.push_back(wrapped.substr(at, end - at));
-    at = end + 1;
+  for (std::string& line : lines_of(wrap(text, comment_columns, 0))) {
+    lines.push_back(std::move(line));
   }
 }
 

@@ -22,10 +22,6 @@ using Sentences = std::vector<Sentence>;
 /// A likelihood ratio of e^(4/2), about 7 to 1, decides clearly between variance functions.
 constexpr double clear = 4.0;
 
-std::string p_words(double p_value) {
-  return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
-}
-
 // ---- noise -------------------------------------------------------------------------------------
 
 std::string variance_words(const Observations& data) {
@@ -159,11 +155,7 @@ Sentences setting_warnings(const FitResult& fitted) {
   if (!data.setting_sd_estimated) return {};
   if (spare_settings(data, fitted.model.free_count()) > 0) {
     // Without adhesion e hardly depends on V, and an error of V is one of e.
-    bool adheres = false;
-    for (std::size_t d = 0; d < fitted.model.contacts.size(); ++d) {
-      adheres = adheres || !without_adhesion(fitted.model, d);
-    }
-    if (!adheres) return {};
+    if (!adheres_anywhere(fitted.model)) return {};
     std::map<std::size_t, double> velocity;  // of a setting
     for (const Observation& point : data.points) {
       if (velocity.try_emplace(point.setting, point.velocity).first->second != point.velocity) {
@@ -214,12 +206,11 @@ Sentences data_warnings(const Observations& data) {
 /// Parameters that the fit does not determine.
 Sentences undetermined_warnings(const FitResult& fitted) {
   if (!fitted.flat.empty()) {
-    Sentences names;
-    for (const std::size_t j : fitted.flat) names.push_back(symbol(fitted.model.slots[j].label()));
-    return {
-        say("the points do not depend on {} at the estimate: change its initial value, or fix "
-            "it (free = false)",
-            join(names, ", "))};
+    return {say(
+        "the points do not depend on {} at the estimate: change its initial value, or fix it (free "
+        "= false)",
+        joined(fitted.flat, ", ",
+               [&](std::size_t j) { return symbol(fitted.model.slots[j].label()); }))};
   }
   if (!fitted.data.noise.known) {
     return {Sentence("the noise is " + unknown_noise_words(fitted) +

@@ -71,21 +71,15 @@ Sentence wide_spread_words(const Sentence& what, double event_spread) {
 // ---- bootstrap ---------------------------------------------------------------------------------
 
 const char* resampled_words(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::parametric:
-      return "new noise is drawn about the fitted curve";
-    case Scheme::residual:
-      return "residuals, scaled for leverage and centred, are exchanged among the points";
-    case Scheme::wild:
-      return "each point keeps its residual, scaled for leverage (HC3), with a random sign";
-    case Scheme::cases:
-      return "points are drawn with replacement";
-    case Scheme::cluster:
-      return "whole series are drawn with replacement";
-    case Scheme::automatic:
-      break;
-  }
-  return "";
+  using enum Scheme;
+  static constexpr Phrase<Scheme> phrases[] = {
+      {parametric, "new noise is drawn about the fitted curve"},
+      {residual, "residuals, scaled for leverage and centred, are exchanged among the points"},
+      {wild, "each point keeps its residual, scaled for leverage (HC3), with a random sign"},
+      {cases, "points are drawn with replacement"},
+      {cluster, "whole series are drawn with replacement"},
+      {automatic, ""}};
+  return phrase_for(phrases, scheme).words;
 }
 
 std::string suspect_words(const FailedReplicates::Suspect& suspect, Scheme scheme,
@@ -214,17 +208,6 @@ Sentence words_of(Combination combination) {
   return {};
 }
 
-/// Is this the diameter at which the parameters of its dataset are quoted?
-bool is_reference(const Analysis& a, const CaptureEstimate& capture) {
-  const double reference = a.fitted.model.contacts[capture.dataset].reference_diameter;
-  const auto distance = [&](double diameter) { return std::abs(std::log(diameter / reference)); };
-  return std::none_of(a.uncertainty.capture.begin(), a.uncertainty.capture.end(),
-                      [&](const CaptureEstimate& other) {
-                        return other.dataset == capture.dataset &&
-                               distance(other.diameter) < distance(capture.diameter);
-                      });
-}
-
 }  // namespace
 
 std::string words_of(IntervalKind kind) {
@@ -244,41 +227,26 @@ std::string words_of(IntervalKind kind) {
 std::string missing_words(const Interval& interval) {
   if (interval.available()) return "";
   if (!interval.missing) return "not computed";
-  switch (*interval.missing) {
-    case NoInterval::not_assessed:
-      return "no uncertainty was assessed";
-    case NoInterval::fixed:
-      return "the parameter is fixed";
-    case NoInterval::nothing_free:
-      return "no parameter is free";
-    case NoInterval::no_standard_error:
-      return "no standard error (at a bound, or not determined)";
-    case NoInterval::refit_failed:
-      return "a constrained refit along the profile failed";
-    case NoInterval::few_replicates:
-      return "fewer usable replicates than the level needs";
-    case NoInterval::few_delete_one_refits:
-      return "fewer than three delete-one refits succeeded";
-    case NoInterval::one_sided_replicates:
-      return "all replicates are on one side of the estimate";
-    case NoInterval::large_acceleration:
-      return "the acceleration is too large for this level";
-    case NoInterval::replicates_without_error:
-      return "more than a tenth of the replicates are at a bound and have no error";
-    case NoInterval::refits_failed:
-      return "withheld, as more than a tenth of the refits failed";
-    case NoInterval::never_rebounds:
-      return "spheres of this size never rebound under the fit";
-    case NoInterval::never_captured:
-      return "no sphere is captured under the fit";
-    case NoInterval::no_covariance:
-      return "the fit has no standard errors";
-    case NoInterval::all_captured:
-      return "every point states only that all or none of its impacts were captured";
-    case NoInterval::noise_unknown:
-      return "the noise is not known";
-  }
-  return "";
+  using enum NoInterval;
+  static constexpr Phrase<NoInterval> phrases[] = {
+      {not_assessed, "no uncertainty was assessed"},
+      {fixed, "the parameter is fixed"},
+      {nothing_free, "no parameter is free"},
+      {no_standard_error, "no standard error (at a bound, or not determined)"},
+      {refit_failed, "a constrained refit along the profile failed"},
+      {few_replicates, "fewer usable replicates than the level needs"},
+      {few_delete_one_refits, "fewer than three delete-one refits succeeded"},
+      {one_sided_replicates, "all replicates are on one side of the estimate"},
+      {large_acceleration, "the acceleration is too large for this level"},
+      {replicates_without_error,
+       "more than a tenth of the replicates are at a bound and have no error"},
+      {refits_failed, "withheld, as more than a tenth of the refits failed"},
+      {never_rebounds, "spheres of this size never rebound under the fit"},
+      {never_captured, "no sphere is captured under the fit"},
+      {no_covariance, "the fit has no standard errors"},
+      {all_captured, "every point states only that all or none of its impacts were captured"},
+      {noise_unknown, "the noise is not known"}};
+  return phrase_for(phrases, *interval.missing).words;
 }
 
 Sentence note_words(const Interval& interval, const Sentence& what) {
@@ -302,29 +270,23 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           what, 100.0 * value);
     case Caution::model_rejected:
       return say(
-          "{} follows from a model that the data reject (p {}); its interval does not include the "
+          "{} follows from a model that the data reject ({}); its interval does not include the "
           "error of the model",
-          what, value < 1e-6 ? "< 1e-6" : fmt::format("= {:.2g}", value));
+          what, p_words(value));
   }
   return {};
 }
 
 std::string short_note(Caution caution) {
-  switch (caution) {
-    case Caution::spans_both_bounds:
-      return "not limited by the data";
-    case Caution::begins_at_bound:
-      return "upper limit";
-    case Caution::ends_at_bound:
-      return "lower limit";
-    case Caution::undecided_noise:
-    case Caution::wide_spread:
-    case Caution::mixed_sizes:
-      break;
-    case Caution::model_rejected:
-      return "the data reject the model";
-  }
-  return "";
+  using enum Caution;
+  static constexpr Phrase<Caution> phrases[] = {{spans_both_bounds, "not limited by the data"},
+                                                {begins_at_bound, "upper limit"},
+                                                {ends_at_bound, "lower limit"},
+                                                {undecided_noise, ""},
+                                                {wide_spread, ""},
+                                                {mixed_sizes, ""},
+                                                {model_rejected, "the data reject the model"}};
+  return phrase_for(phrases, caution).words;
 }
 
 std::string recommended_words(const IntervalSet& set) {
@@ -361,10 +323,6 @@ std::string recommended_words(const CaptureEstimate& capture) {
 Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
   if (!set.disagreement) return {};
   const Disagreement& found = *set.disagreement;
-  std::vector<std::string> differing;
-  for (const auto& [kind, by] : found.differing) {
-    differing.push_back(fmt::format("{} by {:.0f} %", words_of(kind), 100.0 * by));
-  }
   Sentences reasons;
   if (Sentence bound = bound_words(found, fitted.model, slot); !bound.empty()) {
     reasons.push_back(std::move(bound));
@@ -383,7 +341,11 @@ Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const Int
   if (reasons.empty()) reasons.emplace_back("without an obvious reason");
   return say("{}: the intervals differ from the {} interval ({} of its width): {}",
              label_of(fitted.model, slot), words_of(set.recommended),
-             fmt::format("{}", fmt::join(differing, ", ")), join(reasons, "; "));
+             joined(found.differing, ", ",
+                    [](const auto& one) {
+                      return fmt::format("{} by {:.0f} %", words_of(one.kind), 100.0 * one.by);
+                    }),
+             join(reasons, "; "));
 }
 
 std::string scheme_words(const BootstrapResult& bootstrap) {
@@ -603,7 +565,7 @@ std::vector<BudgetOf> reference_budgets(const Analysis& a) {
   for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
     const ErrorBudget& budget = a.uncertainty.capture_budgets[k];
     const CaptureEstimate& capture = a.uncertainty.capture[k];
-    if (!budget.available() || !is_reference(a, capture)) continue;
+    if (!budget.available() || &capture != reference_capture(a, capture.dataset)) continue;
     all.push_back({capture_name(a, capture), "m/s", &budget});
   }
   return all;

@@ -9,7 +9,7 @@ import json
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
 from . import _recoil
 from ._errors import InputError, refuse, refuse_to_replace
@@ -51,6 +51,13 @@ def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
         if key not in own:
             refuse(f"{key} is not known", f"give {key}=..., or like= a dataset that has it")
     return own
+
+
+def _fields(columns: Iterable[str], units: Mapping[str, str]) -> list[dict[str, str]]:
+    """The fields of datapackage.json."""
+    return [{"name": column,
+             "type": "string" if column in _TEXTS else "integer" if column in _COUNTS else "number",
+             **({"unit": units[column]} if column in units else {})} for column in columns]
 
 
 def _series_of(diameters: Any, unit: str) -> list[str]:
@@ -152,15 +159,10 @@ class Dataset:
             said.update(known)
         if "series" not in frame.columns and "diameter" in frame.columns:
             frame = frame.assign(series=_series_of(frame["diameter"], said["diameter"]))
-        fields = []
-        for column in map(str, frame.columns):
-            kind = "string" if column in _TEXTS else "integer" if column in _COUNTS else "number"
-            if column in _COUNTS and str(frame[column].dtype) in ("bool", "boolean"):
-                kind = "boolean"
-            field = {"name": column, "type": kind}
-            if column in said:
-                field["unit"] = said[column]
-            fields.append(field)
+        fields = _fields(map(str, frame.columns), said)
+        for field in fields:
+            if field["name"] in _COUNTS and str(frame[field["name"]].dtype) in ("bool", "boolean"):
+                field["type"] = "boolean"
         return cls._parsed(name, title, fields, own, frame.to_csv(index=False))
 
     @classmethod
@@ -207,15 +209,12 @@ class Dataset:
         for column, (argument, values) in given.items():
             if values is not None:
                 columns[column] = _numbers(argument, values, points, whole=column in _COUNTS)
-        fields = [{"name": column, "type": "string" if column in _TEXTS
-                   else "integer" if column in _COUNTS else "number",
-                   **({"unit": _UNITS[column]} if column in _UNITS else {})} for column in columns]
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*columns.values()))
         own = _stated(None, particle=particle, surface=surface, provenance=provenance, **more)
-        return cls._parsed(name, "", fields, own, text.getvalue())
+        return cls._parsed(name, "", _fields(columns, _UNITS), own, text.getvalue())
 
     @classmethod
     def _parsed(

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 PathLike = Union[str, "os.PathLike[str]"]
 
 
-_COMPILED = ("_analysis", "_diagnosis", "_fitted", "_pictures")
+_COMPILED = ("_compiled", "_fitted", "_pictures")
 
 
 class _Result:
@@ -75,6 +75,9 @@ class _Result:
     def __str__(self) -> str:
         return self._text
 
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self._text)}</pre>"
+
 
 class _WithPictures(_Result):
     """A result with the pictures of its report."""
@@ -93,11 +96,35 @@ class _WithPictures(_Result):
         return self._pictures.svg(name)
 
 
+class _Reported(_WithPictures):
+    """A result that is compiled, with a report in words."""
+
+    def __init__(self, compiled: Any) -> None:
+        self._compiled = compiled
+        self._json = compiled.json()
+        self._text = compiled.text(False)
+        self._pictures = compiled.pictures()
+
+    def report(self, verbose: bool = False) -> str:
+        """The text that the command prints; ``verbose``: with ``--verbose``."""
+        return str(self._compiled.text(True)) if verbose else self._text
+
+    def _repr_html_(self) -> str:
+        if "_compiled" not in self.__dict__:
+            return super()._repr_html_()
+        return str(self._compiled.summary())
+
+
 def _numbers(values: list[Optional[float]]) -> Array:
     """An array, with NaN for missing numbers."""
     import numpy as np
 
     return np.array([math.nan if v is None else v for v in values], dtype=np.float64)
+
+
+def _column(rows: list[Facts], name: str) -> Array:
+    """One key of every row."""
+    return _numbers([row[name] for row in rows])
 
 
 class Parameter:
@@ -127,7 +154,7 @@ class Parameter:
         return f"<Parameter {self.name} = {self.value} {error} [{self.unit}]>"
 
 
-class FitResult(_WithPictures):
+class FitResult(_Reported):
     """A fit: the keys of fit.json are attributes (``result.parameters.C_H.value``,
     ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); ``recoil help
     fit-json`` lists them. The names of lmfit's ModelResult also work."""
@@ -152,11 +179,8 @@ class FitResult(_WithPictures):
     warnings: list[str]
 
     def __init__(self, analysis: _recoil.Analysis) -> None:
-        self._analysis = analysis
-        self._json = analysis.json()
-        self._text = analysis.text(False)
+        super().__init__(analysis)
         self._fitted = Model(analysis.model())
-        self._pictures = analysis.pictures()
 
     # -- what can be done with it --
 
@@ -182,7 +206,7 @@ class FitResult(_WithPictures):
         """
         within("seed", seed, 0, 2**63 - 1, whole=True)
         within("threads", threads, 0, 4096, whole=True)
-        return Diagnosis(self._analysis.diagnose(seed, threads))
+        return Diagnosis(self._compiled.diagnose(seed, threads))
 
     def predict(
         self,
@@ -199,12 +223,8 @@ class FitResult(_WithPictures):
         the datapackage.json beside it says, else um); ``height_mm``: of the measuring plane [mm].
         """
         within("height_mm", height_mm, 0, 1000)
-        predicted = self._analysis.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
+        predicted = self._compiled.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
         return Prediction(predicted)
-
-    def report(self, verbose: bool = False) -> str:
-        """The text that ``recoil fit`` prints; ``verbose``: with ``--verbose``."""
-        return self._analysis.text(True) if verbose else self._text
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, the ends of the recommended interval,
@@ -227,7 +247,7 @@ class FitResult(_WithPictures):
 
         if not self.facts.posterior:
             refuse("the posterior was not sampled", "fit with uncertainty={'posterior': True}")
-        text, pointwise = self._analysis.posterior()
+        text, pointwise = self._compiled.posterior()
         names, *rows = csv.reader(io.StringIO(text))
         if not rows:
             refuse(self.facts.posterior.missing, "there are no draws")
@@ -238,7 +258,7 @@ class FitResult(_WithPictures):
         stats["lp"] = stats["log_likelihood"] + stats["log_prior"]
         del values["chain"], values["draw"]
         found = {"posterior": values, "sample_stats": stats,
-                 "observed_data": {"restitution": _numbers([r.restitution for r in self.residuals])}}
+                 "observed_data": {"restitution": _column(self.residuals, "restitution")}}
         if pointwise:
             found["log_likelihood"] = {
                 "restitution": numpy.array(pointwise).T.reshape(*shape, len(pointwise))}
@@ -252,7 +272,7 @@ class FitResult(_WithPictures):
 
     def save_page(self, file: PathLike) -> None:
         """Writes the page of ``recoil report``: one HTML file with its pictures."""
-        _recoil.write_whole_files([(Path(file), self._analysis.page())])
+        _recoil.write_whole_files([(Path(file), self._compiled.page())])
 
     def plot(
         self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = ""
@@ -275,48 +295,35 @@ class FitResult(_WithPictures):
             ax = plt.figure().add_subplot()
         if what == "profile":
             self._draw_profile(ax, parameter)
-        elif what == "residuals":
-            self._draw_residuals(ax)
         else:
-            self._draw_fit(ax)
+            self._draw_points(ax, what)
+        ax.legend()
         return ax
 
-    def _series(self) -> Iterator[tuple[str, str, str]]:
-        """Colour, dataset and name of each series."""
+    def _draw_points(self, ax: "Axes", what: str) -> None:
         series = dict.fromkeys((row.dataset, row.series) for row in self.residuals)
-        for number, (dataset, name) in enumerate(series):
-            yield f"C{number % 10}", dataset, name
-
-    def _draw_fit(self, ax: "Axes") -> None:
-        for colour, dataset, name in self._series():
-            points = [r for r in self.residuals if (r.dataset, r.series) == (dataset, name)]
-            curve = [r for r in self.curve if (r.dataset, r.series) == (dataset, name)]
-            ax.errorbar(
-                _numbers([p.incident_velocity for p in points]),
-                _numbers([p.restitution for p in points]),
-                yerr=_numbers([p.sd_used for p in points]),
-                fmt="o", color=colour, label=name or dataset,
-            )
-            velocity = _numbers([r.incident_velocity for r in curve])
-            ax.plot(velocity, _numbers([r.restitution for r in curve]), color=colour)
+        for number, one in enumerate(series):
+            look: dict[str, Any] = {"fmt": "o", "color": f"C{number % 10}", "label": one[1] or one[0]}
+            points = [r for r in self.residuals if (r.dataset, r.series) == one]
+            velocity = _column(points, "incident_velocity")
+            if what == "residuals":
+                ax.errorbar(velocity, _column(points, "weighted_residual"), **look)
+                continue
+            ax.errorbar(velocity, _column(points, "restitution"),
+                        yerr=_column(points, "sd_used"), **look)
+            curve = [r for r in self.curve if (r.dataset, r.series) == one]
+            velocity = _column(curve, "incident_velocity")
+            ax.plot(velocity, _column(curve, "restitution"), color=look["color"])
             bands = [r.band or [None, None] for r in curve]
             lower, upper = (_numbers([band[end] for band in bands]) for end in (0, 1))
-            ax.fill_between(velocity, lower, upper, color=colour, alpha=0.2, linewidth=0)
+            ax.fill_between(velocity, lower, upper, color=look["color"], alpha=0.2, linewidth=0)
         ax.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="restitution e")
-        ax.legend()
-
-    def _draw_residuals(self, ax: "Axes") -> None:
-        for colour, dataset, name in self._series():
-            points = [r for r in self.residuals if (r.dataset, r.series) == (dataset, name)]
-            ax.plot(_numbers([p.incident_velocity for p in points]),
-                    _numbers([p.weighted_residual for p in points]),
-                    "o", color=colour, label=name or dataset)
-        ax.axhline(0.0, color="0.5", linewidth=1)
-        ax.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="weighted residual")
-        ax.legend()
+        if what == "residuals":
+            ax.axhline(0.0, color="0.5", linewidth=1)
+            ax.set(ylabel="weighted residual")
 
     def _draw_profile(self, ax: "Axes", parameter: str) -> None:
-        profiles = self._analysis.profiles()
+        profiles = self._compiled.profiles()
         if not profiles:
             refuse("no parameter is free", "there is no profile to plot")
         name = parameter or next(iter(profiles))
@@ -327,7 +334,6 @@ class FitResult(_WithPictures):
         ax.plot(value, allowed, "--", color="0.5", label="where the interval ends")
         ax.axvline(self.parameters[name].value, color="0.5", linewidth=1)
         ax.set(xlabel=f"{name} [{self.parameters[name].unit}]", ylabel="rise of chi-square")
-        ax.legend()
 
     plot_fit = plot
 
@@ -394,12 +400,12 @@ class FitResult(_WithPictures):
     @property
     def residual(self) -> Array:
         """The weighted residuals of e^2, in the order of ``residuals``."""
-        return _numbers([r.weighted_residual for r in self.residuals])
+        return _column(self.residuals, "weighted_residual")
 
     @property
     def best_fit(self) -> Array:
         """e of the model at every point [1], in the order of ``residuals``; 0: captured."""
-        return _numbers([r.predicted for r in self.residuals])
+        return _column(self.residuals, "predicted")
 
     def eval(self, V: npt.ArrayLike, d: npt.ArrayLike, *, dataset: str = "") -> Array:  # noqa: N803
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
@@ -423,13 +429,8 @@ class FitResult(_WithPictures):
         )
         return f"<recoil.FitResult {self.fit.id}: {values}>"
 
-    def _repr_html_(self) -> str:
-        if "_analysis" not in self.__dict__:
-            return f"<pre>{html.escape(self._text)}</pre>"
-        return self._analysis.summary()
 
-
-class Diagnosis(_WithPictures):
+class Diagnosis(_Reported):
     """What the model gets wrong: the names of diagnosis.json are attributes (``verdict``,
     ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
 
@@ -445,31 +446,16 @@ class Diagnosis(_WithPictures):
     next_experiment: list[Facts]
     warnings: list[str]
 
-    def __init__(self, diagnosis: _recoil.Diagnosis) -> None:
-        self._diagnosis = diagnosis
-        self._json = diagnosis.json()
-        self._text = diagnosis.text(False)
-        self._pictures = diagnosis.pictures()
-
-    def report(self, verbose: bool = False) -> str:
-        """What ``recoil diagnose`` prints; ``verbose``: with ``--verbose``."""
-        return self._diagnosis.text(True) if verbose else self._text
-
     def save(self, folder: PathLike) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
         ``folder``, and returns the path of the first."""
         path = Path(folder) / "diagnosis.json"
-        extended = self._diagnosis.extended_toml(os.fspath(folder))
+        extended = self._compiled.extended_toml(os.fspath(folder))
         _recoil.write_whole_files([(path.with_name("extended.toml"), extended), (path, self._json)])
         return path
 
     def __repr__(self) -> str:
         return f"<recoil.Diagnosis: {self.verdict} {', '.join(self.named)}>"
-
-    def _repr_html_(self) -> str:
-        if "_diagnosis" not in self.__dict__:
-            return f"<pre>{html.escape(self._text)}</pre>"
-        return self._diagnosis.summary()
 
 
 class Prediction(_WithPictures):
@@ -490,11 +476,15 @@ class Comparison(_Result):
     def __init__(self, json_text: str, text: str) -> None:
         self._json, self._text = json_text, text
 
-    def _repr_html_(self) -> str:
-        return f"<pre>{html.escape(self._text)}</pre>"
-
     def __iter__(self) -> Iterator[Facts]:
         return iter(self.facts.fits)
+
+
+def frame_of(text: str) -> "pandas.DataFrame":
+    """The frame of a text of comma-separated values."""
+    import pandas
+
+    return pandas.read_csv(io.StringIO(text))
 
 
 class Pairing(_Result):
@@ -508,17 +498,11 @@ class Pairing(_Result):
     def to_pandas(self) -> "pandas.DataFrame":
         """The points as a frame, one row each, columns as in points.csv (diameters in um,
         velocities in m/s): ``Dataset.from_pandas`` takes it."""
-        return self._frame(self._points)
+        return frame_of(self._points)
 
     def impacts_to_pandas(self) -> "pandas.DataFrame":
         """Every impact and every passage without one, as ``recoil pair --impacts`` writes them."""
-        return self._frame(self._impacts)
-
-    @staticmethod
-    def _frame(csv: str) -> "pandas.DataFrame":
-        import pandas
-
-        return pandas.read_csv(io.StringIO(csv))
+        return frame_of(self._impacts)
 
     def save(self, file: PathLike, *, replace: bool = False) -> Path:
         """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path.
@@ -533,9 +517,6 @@ class Pairing(_Result):
 
     def __repr__(self) -> str:
         return f"<recoil.Pairing: {self._points.count(chr(10)) - 1} points>"
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{html.escape(self._text)}</pre>"
 
 
 __all__ = ["Comparison", "Diagnosis", "FitResult", "Pairing", "Parameter", "Prediction"]

@@ -10,6 +10,16 @@ using E = Effects;
 using D = Design;
 using enum EffectKind;
 
+/// Sets one of the effects, or one of those in the contact, to its strength.
+template <double E::*Member>
+void sets(E& e, double s, const D&) {
+  e.*Member = s;
+}
+template <double ContactExtras::*Member>
+void sets_contact(E& e, double s, const D&) {
+  e.contact.*Member = s;
+}
+
 /// Could these velocities be those of a fall from the height of a house?
 bool are_dropped(const Design& design) { return design.rows.front().highest < 20.0; }
 
@@ -28,23 +38,15 @@ const std::vector<HiddenEffect>& hidden_effects() {
        }},
       {"crack_rate", physics, "W_A", 15.0, 0.0,
        [](E& e, double s, const D& d) { e.contact.crack_energy = s * d.base.adhesion_energy(); }},
-      {"bulk_viscoelastic", physics, "s", 3e-9, 0.0,
-       [](E& e, double s, const D&) { e.contact.bulk_relaxation = s; }},
-      {"elastic_waves", physics, "1", 3.0, 0.0,
-       [](E& e, double s, const D&) { e.contact.wave_radiation = s; }},
-      {"plate_flexure", physics, "s/kg", 1000.0, 0.0,
-       [](E& e, double s, const D&) { e.contact.plate_mobility = s; }},
-      {"gas_film", physics, "Pa", 1.05e5, 0.0,
-       [](E& e, double s, const D&) { e.gas_pressure = s; }},
-      {"electrostatic_image", physics, "V/m", 3e6, 0.0,
-       [](E& e, double s, const D&) { e.surface_field = s; }},
-      {"capillary", physics, "m", 2e-8, 0.0, [](E& e, double s, const D&) { e.bridge_length = s; }},
-      {"asperity_loss", physics, "J", 1e-11, 0.0,
-       [](E& e, double s, const D&) { e.asperity_energy = s; }},
-      {"hysteretic_loss", physics, "1", 0.6, 0.0,
-       [](E& e, double s, const D&) { e.contact.hysteretic_share = s; }},
-      {"van_der_waals_approach", physics, "J", 5e-19, 0.0,
-       [](E& e, double s, const D&) { e.hamaker_constant = s; }},
+      {"bulk_viscoelastic", physics, "s", 3e-9, 0.0, sets_contact<&ContactExtras::bulk_relaxation>},
+      {"elastic_waves", physics, "1", 3.0, 0.0, sets_contact<&ContactExtras::wave_radiation>},
+      {"plate_flexure", physics, "s/kg", 1000.0, 0.0, sets_contact<&ContactExtras::plate_mobility>},
+      {"gas_film", physics, "Pa", 1.05e5, 0.0, sets<&E::gas_pressure>},
+      {"electrostatic_image", physics, "V/m", 3e6, 0.0, sets<&E::surface_field>},
+      {"capillary", physics, "m", 2e-8, 0.0, sets<&E::bridge_length>},
+      {"asperity_loss", physics, "J", 1e-11, 0.0, sets<&E::asperity_energy>},
+      {"hysteretic_loss", physics, "1", 0.6, 0.0, sets_contact<&ContactExtras::hysteretic_share>},
+      {"van_der_waals_approach", physics, "J", 5e-19, 0.0, sets<&E::hamaker_constant>},
       {"flight_drag", physics, "Pa", 1.05e5, 0.0,
        [](E& e, double s, const D& d) {
          e.flight_pressure = are_dropped(d) ? s : 0.0;
@@ -53,34 +55,24 @@ const std::vector<HiddenEffect>& hidden_effects() {
       // Points on a sphere are no further apart than its diameter: that of the smallest.
       {"height_origin", measurement, "diameters", 1.0, 1.0,
        [](E& e, double s, const D& d) { e.height_error = s * d.rows.front().diameter; }},
-      {"probe_plane", measurement, "m", 5e-3, 2e-3,
-       [](E& e, double s, const D&) { e.plane_height = s; }},
-      {"velocity_offset", measurement, "m/s", 0.1, 0.1,
-       [](E& e, double s, const D&) { e.velocity_error = s; }},
-      {"size_calibration", measurement, "1", 0.15, 0.15,
-       [](E& e, double s, const D&) { e.diameter_error = s; }},
-      {"polydispersity", measurement, "1", 0.4, 0.0,
-       [](E& e, double s, const D&) { e.size_spread = s; }},
-      {"survivor_bias", measurement, "1", 0.5, 0.0,
-       [](E& e, double s, const D&) { e.adhesion_spread = s; }},
-      {"rebound_truncation", measurement, "m/s", 0.5, 0.0,
-       [](E& e, double s, const D&) { e.slowest_rebound = s; }},
-      {"outliers", measurement, "1", 0.2, 0.0,
-       [](E& e, double s, const D&) { e.outlier_share = s; }},
+      {"probe_plane", measurement, "m", 5e-3, 2e-3, sets<&E::plane_height>},
+      {"velocity_offset", measurement, "m/s", 0.1, 0.1, sets<&E::velocity_error>},
+      {"size_calibration", measurement, "1", 0.15, 0.15, sets<&E::diameter_error>},
+      {"polydispersity", measurement, "1", 0.4, 0.0, sets<&E::size_spread>},
+      {"survivor_bias", measurement, "1", 0.5, 0.0, sets<&E::adhesion_spread>},
+      {"rebound_truncation", measurement, "m/s", 0.5, 0.0, sets<&E::slowest_rebound>},
+      {"outliers", measurement, "1", 0.2, 0.0, sets<&E::outlier_share>},
       {"series_offset", measurement, "1", 0.05, 0.0,
        [](E& e, double s, const D&) {
          for (double& offset : e.series_offset) offset *= s;
        }},
-      {"dip", outside, "1", 1.0, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
-      {"kink", outside, "1", 0.5, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
-      {"wave", outside, "1", 0.5, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
-      {"velocities", careless, "1", 0.03, 0.0,
-       [](E& e, double s, const D&) { e.velocity_scatter = s; }},
-      {"deviations", careless, "1", 0.5, 0.0,
-       [](E& e, double s, const D&) { e.deviations_short = s; }},
-      {"settings", careless, "1", 0.04, 0.0,
-       [](E& e, double s, const D&) { e.height_scatter = s; }},
-      {"odd_points", careless, "1", 0.06, 0.0, [](E& e, double s, const D&) { e.odd_share = s; }},
+      {"dip", outside, "1", 1.0, 0.0, sets<&E::oddity_size>},
+      {"kink", outside, "1", 0.5, 0.0, sets<&E::oddity_size>},
+      {"wave", outside, "1", 0.5, 0.0, sets<&E::oddity_size>},
+      {"velocities", careless, "1", 0.03, 0.0, sets<&E::velocity_scatter>},
+      {"deviations", careless, "1", 0.5, 0.0, sets<&E::deviations_short>},
+      {"settings", careless, "1", 0.04, 0.0, sets<&E::height_scatter>},
+      {"odd_points", careless, "1", 0.06, 0.0, sets<&E::odd_share>},
   };
   return all;
 }
