@@ -1,11 +1,9 @@
-#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"

@@ -60,6 +60,11 @@ struct AnalysisFlags {
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
+/// A seed that was given.
+inline std::optional<std::uint64_t> stated_seed(std::int64_t seed) {
+  return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed));
+}
+
 /// --threads and --seed. @param of what the seed is: "the random numbers; fixes every digit"
 void add_threads(const Command& command, int& threads);
 void add_seed(const Command& command, std::int64_t& seed, const std::string& of);
