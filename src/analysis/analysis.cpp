@@ -16,6 +16,19 @@
 
 namespace recoil {
 
+AnalysisOptions analysis_options(const std::string& replicates, const std::string& scheme,
+                                 std::optional<std::uint64_t> seed, int threads,
+                                 const std::string& solver) {
+  AnalysisOptions options;
+  options.replicates_auto = replicates == "auto";
+  if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
+  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
+  options.seed = seed;
+  options.threads = threads;
+  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
+  return options;
+}
+
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
   UncertaintyOptions assess;
   assess.replicates = options.replicates.value_or(spec.uncertainty.replicates);

@@ -52,6 +52,12 @@ struct AnalysisOptions {
   std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
+/// What people state: a number of replicates or "auto", the names of a scheme and of a solver. What
+/// is empty is that of the fit file.
+AnalysisOptions analysis_options(const std::string& replicates, const std::string& scheme,
+                                 std::optional<std::uint64_t> seed, int threads,
+                                 const std::string& solver);
+
 /// Reads a fit file and its datasets, and chooses the loss (`choose_loss`).
 /// @throws InputError
 FitInputs load_inputs(const std::filesystem::path& fit_file);

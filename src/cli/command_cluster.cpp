@@ -14,6 +14,7 @@
 #include "core/names.hpp"
 #include "core/quoting.hpp"
 #include "core/resumable.hpp"
+#include "document/sentence.hpp"
 #include "export/export_job.hpp"
 
 namespace recoil {
@@ -146,46 +147,27 @@ std::optional<long> seconds_named(const std::string& text) {
 
 /// The scripts of a job.
 std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
-  std::string words;
-  for (const std::string& word : job.words) words += (words.empty() ? "" : " ") + shell_word(word);
-  const std::string shards = fmt::format("{}", job.shards);
-  const std::string cpus = fmt::format("{}", job.cpus);
   const std::string plain_folder = job.folder.string();
-  const std::string folder = shell_word(plain_folder);
-  const std::string where = shell_word(job.where.string());
-  const std::string recoil = shell_word(job.recoil.string());
-  std::vector<WholeFile> files = {
-      {job.folder / "shard.sh", filled(shard_script, {{"SHARDS", shards},
-                                                      {"FOLDER", folder},
-                                                      {"WHERE", where},
-                                                      {"RECOIL", recoil},
-                                                      {"WORDS", words},
-                                                      {"CPUS", cpus}})}};
+  const auto script = [&](const char* name, const char* text) {
+    return WholeFile{
+        job.folder / name,
+        filled(text, {{"SHARDS", fmt::format("{}", job.shards)},
+                      {"FOLDER", shell_word(plain_folder)},
+                      {"PLAIN_FOLDER", plain_folder},
+                      {"WHERE", shell_word(job.where.string())},
+                      {"RECOIL", shell_word(job.recoil.string())},
+                      {"WORDS", joined(job.words, " ", shell_word)},
+                      {"CPUS", fmt::format("{}", job.cpus)},
+                      {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)},
+                      {"TIME", clock_time(job.seconds)},
+                      {"AT", "@"}})};
+  };
   if (job.system == ClusterSystem::slurm) {
-    files.push_back(
-        {job.folder / "array.sbatch", filled(slurm_array, {{"SHARDS", shards},
-                                                           {"CPUS", cpus},
-                                                           {"TIME", clock_time(job.seconds)},
-                                                           {"AT", "@"},
-                                                           {"PLAIN_FOLDER", plain_folder},
-                                                           {"FOLDER", folder}})});
-    files.push_back({job.folder / "run.sh", filled(slurm_run, {{"SHARDS", shards},
-                                                               {"CPUS", cpus},
-                                                               {"TIME", clock_time(job.seconds)},
-                                                               {"PLAIN_FOLDER", plain_folder},
-                                                               {"FOLDER", folder},
-                                                               {"RECOIL", recoil}})});
-    return files;
+    return {script("shard.sh", shard_script), script("array.sbatch", slurm_array),
+            script("run.sh", slurm_run)};
   }
-  files.push_back(
-      {job.folder / "merge.sh",
-       filled(merge_script, {{"WHERE", where}, {"RECOIL", recoil}, {"FOLDER", folder}})});
-  files.push_back(
-      {job.folder / "run.sh",
-       filled(parallel_run, {{"SHARDS", shards},
-                             {"FOLDER", folder},
-                             {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)}})});
-  return files;
+  return {script("shard.sh", shard_script), script("merge.sh", merge_script),
+          script("run.sh", parallel_run)};
 }
 
 struct ClusterFlags {

@@ -29,7 +29,7 @@ struct DiagnoseFlags {
   DiagnosisOptions options(const FitSpec& spec) const {
     DiagnosisOptions chosen;
     chosen.threads = threads;
-    chosen.seed = seed >= 0 ? static_cast<std::uint64_t>(seed) : spec.uncertainty.seed;
+    chosen.seed = stated_seed(seed).value_or(spec.uncertainty.seed);
     return chosen;
   }
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"

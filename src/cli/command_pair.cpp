@@ -15,7 +15,6 @@
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"
-#include "plot/draw.hpp"
 #include "report/pairing_report.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"

@@ -4,7 +4,6 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"

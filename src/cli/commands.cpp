@@ -6,8 +6,6 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/program.hpp"
 #include "core/quoting.hpp"
 #include "document/terminal.hpp"
 
@@ -47,14 +45,7 @@ Option add_fit_files(const Command& command, std::vector<std::string>& fits,
 }
 
 AnalysisOptions AnalysisFlags::resolved() const {
-  AnalysisOptions options;
-  options.replicates_auto = replicates == "auto";
-  if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
-  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
-  if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
-  options.threads = threads;
-  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
-  return options;
+  return analysis_options(replicates, scheme, stated_seed(seed), threads, solver);
 }
 
 void add_threads(const Command& command, int& threads) {

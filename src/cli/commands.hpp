@@ -58,6 +58,11 @@ struct AnalysisFlags {
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
+/// The seed of the option --seed; nullopt if it is negative: not given.
+inline std::optional<std::uint64_t> stated_seed(std::int64_t seed) {
+  return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed));
+}
+
 /// Add --threads and --seed. @param of for the help: "seed of OF"
 void add_threads(const Command& command, int& threads);
 void add_seed(const Command& command, std::int64_t& seed, const std::string& of);

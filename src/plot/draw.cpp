@@ -128,9 +128,9 @@ std::string pen(const Stroke& stroke) {
 }
 
 std::string paint(const Fill& fill) {
-  return fmt::format(" fill=\"{}\"{}{}", fill.colour,
-                     fill.opacity == 1.0 ? "" : fmt::format(" fill-opacity=\"{:g}\"", fill.opacity),
-                     fill.rim ? " stroke=\"#ffffff\"" : "");
+  return fmt::format(
+      " fill=\"{}\"{}", fill.colour,
+      fill.opacity == 1.0 ? "" : fmt::format(" fill-opacity=\"{:g}\"", fill.opacity));
 }
 
 std::string path_svg(const std::string& d, const std::string& look) {
@@ -255,8 +255,7 @@ class PlotWriter {
     std::string out = fmt::format(
         "<clipPath id=\"{}-clip\"><path d=\"{}\"/></clipPath>\n", id_,
         rect_path(x_.first, std::min(y_.first, y_.last), x_.last, std::max(y_.first, y_.last)));
-    if (!plot_.bare) out += axis_svg();
-    out += fmt::format("<g id=\"{}\">\n", id_);
+    out += axis_svg() + fmt::format("<g id=\"{}\">\n", id_);
     for (const Layer& layer : plot_.layers) {
       out += std::visit([&](const auto& shown) { return layer_svg(shown); }, layer);
     }
@@ -498,10 +497,8 @@ class PlotWriter {
   }
 
   std::string layer_svg(const Words& words) const {
-    const double x = x_(words.x) + 0.6 * words.size * words.shift_x;
-    const double y = y_(words.y) - words.size * words.shift_y + 0.35 * words.size;
-    return text_svg(x, y, words.text, words.align, words.colour, words.size,
-                    turned(x, y, words.turned) + (words.bold ? " font-weight=\"bold\"" : ""));
+    return text_svg(x_(words.x), y_(words.y) + 0.35 * words.size, words.text, words.align,
+                    words.colour, words.size);
   }
 
   /// The colour bar to the right of the plot.

@@ -63,7 +63,6 @@ struct Stroke {
 struct Fill {
   Colour colour = std::string(sky);
   double opacity = 1.0;
-  bool rim = false;  ///< a thin white rim, which separates neighbours
 };
 
 /// A range on an axis.
@@ -166,9 +165,6 @@ struct Words {
   Align align = Align::left;
   double size = 13.0;  ///< [px]
   Colour colour = std::string(ink);
-  double shift_x = 0.0, shift_y = 0.0;  ///< [letters], up positive
-  double turned = 0.0;                  ///< [degrees], counter-clockwise
-  bool bold = false;
 };
 
 using Layer = std::variant<Points, Line, Band, Boxes, Discs, Rule, Region, Words>;
@@ -225,7 +221,6 @@ struct Plot {
   std::optional<ColourScale> colours = {};
   std::vector<Layer> layers = {};
   std::optional<Frame> frame = {};  ///< none: the whole picture
-  bool bare = false;                ///< without axes
 };
 
 /// One or several plots in one frame.

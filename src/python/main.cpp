@@ -123,19 +123,6 @@ auto interruptible(const Work& work) {
   return running.get();
 }
 
-AnalysisOptions analysis_options(std::optional<int> replicates, bool automatic,
-                                 const std::string& scheme, std::optional<std::uint64_t> seed,
-                                 int threads, const std::string& solver) {
-  AnalysisOptions options;
-  options.replicates = replicates;
-  options.replicates_auto = automatic;
-  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
-  options.seed = seed;
-  options.threads = threads;
-  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
-  return options;
-}
-
 FitInputs inputs_from_text(const std::string& text, const std::string& file,
                            std::vector<Dataset> datasets) {
   return {parse_fit(text, file), std::move(datasets)};
@@ -466,8 +453,8 @@ void bind_inputs(py::module_& module) {
   module.def("parse_fit", &inputs_from_text, py::arg("text"), py::arg("file"), py::arg("datasets"));
 
   py::class_<AnalysisOptions>(module, "Options")
-      .def(py::init(&analysis_options), py::arg("replicates"), py::arg("automatic"),
-           py::arg("scheme"), py::arg("seed"), py::arg("threads"), py::arg("solver"));
+      .def(py::init(&analysis_options), py::arg("replicates"), py::arg("scheme"), py::arg("seed"),
+           py::arg("threads"), py::arg("solver"));
 }
 
 void bind_models(py::module_& module) {

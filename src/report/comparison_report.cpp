@@ -1,7 +1,6 @@
 #include "report/comparison_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
-#include "json/fit_file.hpp"
+#include "report/format.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {
@@ -267,11 +266,10 @@ ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits) {
 
 std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
-  return {{"quality", "Quality of the fits", {}, {quality_table(fits)}},
-          {"quantities",
-           "Parameters and capture velocities",
-           {},
-           {Paragraph{dependence_words(choice_dependence(fits))}, quantity_table(fits)}}};
+  return {
+      shown_section("quality", "Quality of the fits", {quality_table(fits)}),
+      shown_section("quantities", "Parameters and capture velocities",
+                    {Paragraph{dependence_words(choice_dependence(fits))}, quantity_table(fits)})};
 }
 
 std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {

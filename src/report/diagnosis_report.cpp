@@ -7,7 +7,6 @@
 
 #include "core/units.hpp"
 #include "document/html.hpp"
-#include "document/terminal.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_diagnosis.hpp"
@@ -250,7 +249,7 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   std::vector<std::string> notes = answer_notes(d);
   for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
   return {answer_section(d),
-          {"picture", "", {}, {Figures{std::move(answer)}}},
+          shown_section("picture", "", {Figures{std::move(answer)}}),
           detail_section("misfit", "Misfit by velocity and diameter",
                          {Figures{std::move(where)}, structure_table(d), misfit_table(d)}),
           detail_section("causes", "Every cause tried", {candidates_table(d), causes_list(d)}),
@@ -285,14 +284,13 @@ std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t col
   }
   if (!d.spec.file.empty()) {
     answer += terminal_text(
-        Section{"next",
-                "",
-                {},
-                {Paragraph{say(
-                    "Next: {} (a page, and the extended model as a fit file), {} (every "
+        shown_section(
+            "next", "",
+            {Paragraph{
+                say("Next: {} (a page, and the extended model as a fit file), {} (every "
                     "cause tried).",
                     code(fmt::format("recoil diagnose {} --out DIR", d.spec.file.generic_string())),
-                    code("--verbose"))}}},
+                    code("--verbose"))}}),
         columns);
   }
   return least == Importance::answer ? answer : answer + details;

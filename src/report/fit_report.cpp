@@ -1,7 +1,6 @@
 #include "report/fit_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "document/html.hpp"
-#include "document/terminal.hpp"
 #include "report/comparison_report.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
@@ -157,7 +155,6 @@ std::vector<Sentence> warnings_of(const Analysis& a) {
   if (a.fitted.usable && a.fitted.noise_verdict == NoiseVerdict::exceeded) {
     std::erase(warnings, noise_warning(a.fitted));
   }
-  for (Sentence& words : all_contradictions(a)) warnings.push_back(std::move(words));
   return warnings;
 }
 
@@ -262,12 +259,10 @@ Section inputs_section(const Analysis& a) {
 Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
-  return {"next",
-          "",
-          {},
-          {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
-                         code("recoil diagnose " + file), code("recoil report " + file),
-                         code("--verbose"))}}};
+  return shown_section("next", "",
+                       {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
+                                      code("recoil diagnose " + file),
+                                      code("recoil report " + file), code("--verbose"))}});
 }
 
 /// `section` with at most `rows` rows in its tables, and how many more there are.
@@ -301,17 +296,15 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                    Paragraph{join(restitution_sentences(summary, a.datasets), " ")}};
   append(answer.blocks, provenance_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
-  sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
-  sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
-  sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
+  sections.push_back(shown_section("picture", "", {answer_figures(a, panels)}));
+  sections.push_back(shown_section("capture", "Capture velocity", {capture_table(a)}));
+  sections.push_back(shown_section("parameters", "Parameters", {parameters_table(a)}));
   if (a.datasets.size() == 1 && !a.uncertainty.two_point.empty()) {
-    sections.push_back({"calibrations",
-                        "Two points and all points",
-                        {},
-                        {two_point_table(a, a.uncertainty.two_point.front())}});
+    sections.push_back(shown_section("calibrations", "Two points and all points",
+                                     {two_point_table(a, a.uncertainty.two_point.front())}));
   }
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
-  sections.push_back({"warning", "", {}, gravest_warning(warnings)});
+  sections.push_back(shown_section("warning", "", gravest_warning(warnings)));
   sections.push_back(sizes_section(a, std::move(panels), summary));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));

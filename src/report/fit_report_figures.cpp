@@ -43,7 +43,9 @@ void add_capture(const CaptureEstimate& capture, const Axes& axes, plot::Plot& s
 
 std::string capture_words(const CaptureEstimate& capture, const Axes& axes) {
   std::string words = fmt::format("capture below V* = {} m/s", digits(capture.value, 3));
-  if (capture.interval.available()) words += " " + interval_text(capture.interval, 3);
+  if (capture.interval.available()) {
+    words += " " + NumberRange{*capture.interval.lower, *capture.interval.upper, padded(3)}.text();
+  }
   if (capture.value <= axes.velocity.lower) words = "← " + words;
   return words;
 }

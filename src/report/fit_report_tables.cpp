@@ -1,12 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -11,11 +10,6 @@
 #include "report/words_dataset.hpp"
 
 namespace recoil {
-
-std::string interval_text(const Interval& interval, int count) {
-  if (!interval.available()) return "none";
-  return fmt::format("[{}, {}]", digits(*interval.lower, count), digits(*interval.upper, count));
-}
 
 Cell interval_cell(const Interval& interval, const Notation& notation) {
   if (!interval.available()) return {};
@@ -54,10 +48,7 @@ std::string diameter_label(double diameter) {
   return size_text(diameter, unit) + " " + unit.sign;
 }
 
-std::string diameter_words(double diameter) {
-  return diameter < 1e-3 ? fmt::format("{:.3g} um", diameter / units::um)
-                         : fmt::format("{:.3g} mm", diameter / 1e-3);
-}
+std::string diameter_words(double diameter) { return plain_text(diameter_sentence(diameter)); }
 
 Sentence diameter_sentence(double diameter) {
   return diameter < 1e-3 ? say("{:.3g} {um}", diameter / units::um)
@@ -196,6 +187,10 @@ List list_of_sentences(const std::vector<Sentence>& sentences) {
     if (!sentence.empty()) list.entries.push_back(as_sentence(sentence));
   }
   return list;
+}
+
+Section shown_section(const char* id, const char* title, Blocks blocks) {
+  return {id, title, {}, std::move(blocks)};
 }
 
 Section detail_section(const char* id, const char* title, Blocks blocks) {

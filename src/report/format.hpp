@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,10 +15,7 @@
 /// skipped.
 namespace recoil {
 
-/// "[0.0027, 0.0035]", or "none".
-std::string interval_text(const Interval& interval, int count = 4);
-
-/// The same in a table; an empty cell where there is none.
+/// An interval in a table; an empty cell where there is none.
 Cell interval_cell(const Interval& interval, const Notation& notation = padded(4));
 
 /// A diameter in micrometres, three or more digits: "4.90".
@@ -117,7 +113,8 @@ double residual_unit(const Analysis& analysis);
 /// left out.
 List list_of_sentences(const std::vector<Sentence>& sentences);
 
-/// A section that the answer does without.
+/// A section of the answer, and one that the answer does without.
+Section shown_section(const char* id, const char* title, Blocks blocks);
 Section detail_section(const char* id, const char* title, Blocks blocks);
 
 }  // namespace recoil

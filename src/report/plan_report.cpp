@@ -1,9 +1,7 @@
 #include "report/plan_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/json.hpp"
@@ -15,7 +13,6 @@
 #include "predict/validity.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 
@@ -194,11 +191,10 @@ std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string
                           efficiency + Sentence(" without them.")
                     : Sentence("No points are reserved to check the model (--checks 0); ") +
                           efficiency + Sentence(".")});
-  return {std::move(answer),
-          {"assumed", "Assumed", {}, {assumptions(plan, assumed)}},
-          {"settings", "Points to measure", {}, {settings_table(plan)}},
-          {"errors", "Errors", {}, {errors_table(plan), learnt_table(plan)}},
-          {"limits", "Limits of the model", {}, {limits_of_plan(plan)}}};
+  return {std::move(answer), shown_section("assumed", "Assumed", {assumptions(plan, assumed)}),
+          shown_section("settings", "Points to measure", {settings_table(plan)}),
+          shown_section("errors", "Errors", {errors_table(plan), learnt_table(plan)}),
+          shown_section("limits", "Limits of the model", {limits_of_plan(plan)})};
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "report/prediction_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include "document/terminal.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
+#include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {
@@ -174,8 +174,8 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
   said.blocks.emplace_back(list_of_sentences(mixture_words(mixture)));
   return {std::move(said),
-          {"averages", "Weighted averages", {}, {averages_table(mixture)}},
-          {"misses", "Distance of the points", {}, {misses_table(mixture)}}};
+          shown_section("averages", "Weighted averages", {averages_table(mixture)}),
+          shown_section("misses", "Distance of the points", {misses_table(mixture)})};
 }
 
 }  // namespace
@@ -281,15 +281,11 @@ std::string csv_prediction(const PolydispersePrediction& mixture) {
 }
 
 std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
-  const Dataset& dataset = analysis.datasets[mixture.dataset];
   Json out;
   out["format_version"] = format_version;
   out["recoil"] = version();
   out["fit"] = analysis.spec.id;
-  out["dataset"] = {{"id", dataset.id},
-                    {"provenance", to_string(dataset.provenance)},
-                    {"provenance_sentence", provenance_sentence(dataset.provenance)},
-                    {"sha256", dataset.sha256}};
+  out["dataset"] = dataset_json(analysis.datasets[mixture.dataset]);
   Json bins = Json::array();
   for (const SizeBin& bin : mixture.sizes.bins) {
     bins.push_back({{"diameter_um", bin.diameter / units::um},

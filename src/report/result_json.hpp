@@ -20,6 +20,9 @@ namespace recoil {
 
 DatasetEntry dataset_entry(const Dataset& dataset);
 
+/// The dataset of a simulated impact or of a mixture: id, provenance, sha256.
+Json dataset_json(const Dataset& dataset);
+
 /// One check of one impact or fit, without the place of the impact.
 ValidityEntry validity_entry(const Validity& check);
 

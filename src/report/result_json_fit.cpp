@@ -686,9 +686,6 @@ FitFile fit_file(const Analysis& a) {
                           .message = start.message});
   }
   out.warnings = plain_texts(all_warnings(a));
-  for (std::string& text : plain_texts(all_contradictions(a))) {
-    out.warnings.push_back(std::move(text));
-  }
   out.curve = curve_of(a);
   out.residuals = residuals_of(a);
   return out;

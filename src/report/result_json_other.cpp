@@ -103,6 +103,13 @@ Json contact_json(const SimulatedImpact& s) {
 
 }  // namespace
 
+Json dataset_json(const Dataset& dataset) {
+  return {{"id", dataset.id},
+          {"provenance", to_string(dataset.provenance)},
+          {"provenance_sentence", provenance_sentence(dataset.provenance)},
+          {"sha256", dataset.sha256}};
+}
+
 std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>& datasets,
                             const SimulatedImpact& s, const std::string& fit,
                             const std::string& values) {
@@ -111,10 +118,7 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
   out["format_version"] = format_version;
   out["recoil_version"] = version();
   out["fit"] = fit;
-  out["dataset"] = {{"id", dataset.id},
-                    {"provenance", to_string(dataset.provenance)},
-                    {"provenance_sentence", provenance_sentence(dataset.provenance)},
-                    {"sha256", dataset.sha256}};
+  out["dataset"] = dataset_json(dataset);
   out["values_from"] = values;
   out["parameters"] = Json::object();
   for (const ParameterSlot& slot : model.slots) {
@@ -149,7 +153,7 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
     history[column.name] = as_json(column.values);
   }
   out["history"] = history;
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out, 1);
 }
 
 }  // namespace recoil

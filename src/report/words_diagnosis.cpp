@@ -10,7 +10,6 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
-#include "diagnosis/diagnosis_result.hpp"
 #include "document/number.hpp"
 #include "document/sentence.hpp"
 #include "mechanism/mechanism.hpp"

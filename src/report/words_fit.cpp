@@ -470,18 +470,13 @@ std::vector<Sentence> all_warnings(const Analysis& a) {
     add_new(warnings, {say("two points on {}: {}", a.datasets[comparison.dataset].id,
                            two_point_words(a.fitted, comparison.dataset, comparison.result))});
   }
-  return warnings;
-}
-
-std::vector<Sentence> all_contradictions(const Analysis& a) {
-  Sentences sentences;
   const auto& contacts = a.fitted.model.contacts;
   for (std::size_t k = 0; k < contacts.size() && k < a.datasets.size(); ++k) {
     for (const std::string& sentence : contacts[k].contradictions) {
-      sentences.push_back(say("{}: {}", code(a.datasets[k].id), sentence));
+      warnings.push_back(say("{}: {}", code(a.datasets[k].id), sentence));
     }
   }
-  return sentences;
+  return warnings;
 }
 
 }  // namespace recoil

@@ -35,12 +35,9 @@ Sentence noise_warning(const FitResult& fitted);
 /// Warnings about the fit itself, the gravest first.
 std::vector<Sentence> fit_warnings(const FitResult& fitted);
 
-/// Warnings of every stage, the gravest first, without repetition. Contradictions of the inputs are
-/// not among them.
+/// Warnings of every stage, the gravest first, without repetition; the last are contradictions
+/// among the stated inputs, "dataset: sentence".
 std::vector<Sentence> all_warnings(const Analysis& analysis);
-
-/// Contradictions among the stated inputs, "dataset: sentence".
-std::vector<Sentence> all_contradictions(const Analysis& analysis);
 
 /// "Wald", "profile", "percentile", "BCa", "studentized".
 std::string words_of(IntervalKind kind);

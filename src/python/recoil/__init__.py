@@ -101,15 +101,14 @@ def _options(
 ) -> _recoil.Options:
     one_of("scheme", scheme, ("auto", "parametric", "residual", "wild", "case", "cluster"))
     one_of("solver", solver, ("fast", "reference"))
-    automatic = replicates == "auto"
-    if not automatic:
+    if replicates != "auto":
         within("replicates", replicates, 0, 1000000, whole=True)
+        replicates = None if replicates is None else int(replicates)
+    number = "" if replicates is None else str(replicates)
     within("seed", seed, 0, 2**63 - 1, whole=True)
     within("threads", threads, 0, 4096, whole=True)
-    number = None if replicates is None or automatic else int(replicates)
     seed = None if seed is None else int(seed)
-    threads = int(threads)
-    return _recoil.Options(number, automatic, scheme, seed, threads, solver)
+    return _recoil.Options(number, scheme, seed, int(threads), solver)
 
 
 def load_dataset(folder: PathLike) -> Dataset:

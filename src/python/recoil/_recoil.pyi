@@ -37,8 +37,7 @@ class Inputs:
 class Options:
     def __init__(
         self,
-        replicates: Optional[int],
-        automatic: bool,
+        replicates: str,
         scheme: str,
         seed: Optional[int],
         threads: int,
