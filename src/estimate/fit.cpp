@@ -327,52 +327,6 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   return result;
 }
 
-}  // namespace
-
-std::vector<std::size_t> held_back_dampings(const FitResult& fitted) {
-  std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
-    const ParameterSlot& slot = fitted.model.slots[j];
-    const bool rests = fitted.at_bound[j] && fitted.theta[j] >= slot.upper;
-    if (slot.parameter->is_damping() && rests) found.push_back(j);
-  }
-  return found;
-}
-
-const StartSummary& FitResult::best_start() const {
-  return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
-    return start.outcome == StartOutcome::best;
-  });
-}
-
-FitResult fit(const ImpactModel& model, Observations observed, const FitOptions& options) {
-  return on_threads(options.threads,
-                    [&] { return fitted_here(model, std::move(observed), options); });
-}
-
-double root_mean_square(const ImpactModel& model, std::span<const double> theta,
-                        const Observations& data, const std::vector<std::size_t>& subset) {
-  std::vector<std::size_t> points = subset;
-  if (points.empty()) {
-    points.resize(data.points.size());
-    std::iota(points.begin(), points.end(), std::size_t{0});
-  }
-  std::erase_if(points, [&](std::size_t i) { return data.points[i].counts_only(); });
-  if (points.empty()) return 0.0;
-  std::vector<PointConditions> conditions;
-  for (const std::size_t i : points) {
-    conditions.push_back(data.points[i].conditions());
-  }
-  const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    sum += squared_miss(data.points[points[k]], predictions[k].restitution_squared);
-  }
-  return std::sqrt(sum / static_cast<double>(points.size()));
-}
-
-namespace {
-
 // More points than this are searched by a part of them, half as many or fewer: the starts need a
 // rough answer each, and all points only the last steps.
 constexpr std::size_t many_points = 500;
@@ -505,7 +459,54 @@ void finish_promising(const LeastSquaresProblem& problem, LeastSquaresOptions op
   }
 }
 
+constexpr double stated_level = 0.05;
+constexpr double estimated_level = 0.01;
+constexpr double rejected = 0.05;  // p-value of a fit
+constexpr double fixed = 1e-9;     // 1 - h of a point that alone determines a parameter
+
 }  // namespace
+
+std::vector<std::size_t> held_back_dampings(const FitResult& fitted) {
+  std::vector<std::size_t> found;
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    const bool rests = fitted.at_bound[j] && fitted.theta[j] >= slot.upper;
+    if (slot.parameter->is_damping() && rests) found.push_back(j);
+  }
+  return found;
+}
+
+const StartSummary& FitResult::best_start() const {
+  return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
+    return start.outcome == StartOutcome::best;
+  });
+}
+
+FitResult fit(const ImpactModel& model, Observations observed, const FitOptions& options) {
+  return on_threads(options.threads,
+                    [&] { return fitted_here(model, std::move(observed), options); });
+}
+
+double root_mean_square(const ImpactModel& model, std::span<const double> theta,
+                        const Observations& data, const std::vector<std::size_t>& subset) {
+  std::vector<std::size_t> points = subset;
+  if (points.empty()) {
+    points.resize(data.points.size());
+    std::iota(points.begin(), points.end(), std::size_t{0});
+  }
+  std::erase_if(points, [&](std::size_t i) { return data.points[i].counts_only(); });
+  if (points.empty()) return 0.0;
+  std::vector<PointConditions> conditions;
+  for (const std::size_t i : points) {
+    conditions.push_back(data.points[i].conditions());
+  }
+  const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    sum += squared_miss(data.points[points[k]], predictions[k].restitution_squared);
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
 
 StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
                                const std::vector<double>& first, bool several,
@@ -547,15 +548,6 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
   }
   return search;
 }
-
-namespace {
-
-constexpr double stated_level = 0.05;
-constexpr double estimated_level = 0.01;
-constexpr double rejected = 0.05;  // p-value of a fit
-constexpr double fixed = 1e-9;     // 1 - h of a point that alone determines a parameter
-
-}  // namespace
 
 std::optional<OddPoint> odd_point(const FitResult& fitted) {
   gsl_errors_are_values();

@@ -90,22 +90,6 @@ class Table {
   std::array<RootMoments, count> nodes_;
 };
 
-}  // namespace
-
-RootMoments root_of_positive_normal(double u) {
-  // Rows of one setting ask for the same u in succession, and so do the parts of one deviance.
-  static thread_local double last = NAN;
-  static thread_local RootMoments moments;
-  if (u != last) {
-    static const Table table;
-    moments = u > Table::to ? far_above_capture(u) : u >= Table::from ? table(u) : by_quadrature(u);
-    last = u;
-  }
-  return moments;
-}
-
-namespace {
-
 /// A standard normal number x: ln P and the density over P, for P of x > z and of x < z.
 struct NormalTails {
   double log_above, log_below;
@@ -249,7 +233,33 @@ WeightedResidual normal_residual(const Observation& point, double m) {
   return point.censored ? tobit_residual(point, m) : mean_residual(point, m);
 }
 
+/// The smallest k with P(captured <= k) >= `uniform` among `n` impacts.
+int binomial_quantile(double uniform, double p, int n) {
+  gsl_errors_are_values();
+  int below = -1;
+  int reached = n;
+  while (reached - below > 1) {
+    const int middle = below + (reached - below) / 2;
+    const bool enough =
+        gsl_cdf_binomial_P(static_cast<unsigned>(middle), p, static_cast<unsigned>(n)) >= uniform;
+    (enough ? reached : below) = middle;
+  }
+  return reached;
+}
+
 }  // namespace
+
+RootMoments root_of_positive_normal(double u) {
+  // Rows of one setting ask for the same u in succession, and so do the parts of one deviance.
+  static thread_local double last = NAN;
+  static thread_local RootMoments moments;
+  if (u != last) {
+    static const Table table;
+    moments = u > Table::to ? far_above_capture(u) : u >= Table::from ? table(u) : by_quadrature(u);
+    last = u;
+  }
+  return moments;
+}
 
 WeightedResidual weighted_residual(const Observation& point, double m,
                                    const std::optional<StudentNoise>& student) {
@@ -314,24 +324,6 @@ double expected_restitution(const Observation& point, double m) {
   return std::sqrt(point.weights.scatter) *
          root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).mean;
 }
-
-namespace {
-
-/// The smallest k with P(captured <= k) >= `uniform` among `n` impacts.
-int binomial_quantile(double uniform, double p, int n) {
-  gsl_errors_are_values();
-  int below = -1;
-  int reached = n;
-  while (reached - below > 1) {
-    const int middle = below + (reached - below) / 2;
-    const bool enough =
-        gsl_cdf_binomial_P(static_cast<unsigned>(middle), p, static_cast<unsigned>(n)) >= uniform;
-    (enough ? reached : below) = middle;
-  }
-  return reached;
-}
-
-}  // namespace
 
 Observation redraw_captures(const Observation& point, double restitution_squared, double uniform) {
   const double u = (restitution_squared + point.weights.shift) / point.weights.scatter;

@@ -352,73 +352,6 @@ std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
   return std::move(answers->at);
 }
 
-}  // namespace
-
-bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
-                        Observations& data) {
-  if (!(data.noise.event_spread > 0.0)) return true;
-  Renewal renewal(data, Renewal::What::event_spread);
-  PointPredictor points(model, data.conditions());
-  const auto answers = ask(model, theta, points, renewal);
-  if (answers) renewal.learn(answers->at, answers->beside);
-  return answers.has_value();
-}
-
-std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
-                                            const Observations& data, std::span<const double> C) {
-  if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
-  Observations own = data;
-  Renewal renewal(own, Renewal::What::event_spread);
-  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
-  const auto answers = ask(model, theta, *points, renewal);
-  if (!answers) return {};
-  const std::size_t n = data.points.size();
-  const std::size_t p = theta.size();
-  constexpr double step = 0.1;
-  std::vector<double> deviance;             // T at ln omega - step, 0, + step
-  std::vector<std::vector<double>> slopes;  // half of dT / d theta there
-  for (const double by : {-step, 0.0, step}) {
-    const Observations there = renewal.with_spread(answers->at, answers->beside, std::exp(by));
-    const LeastSquaresProblem problem = impact_problem(model, there, nullptr, points);
-    std::vector<double> residuals(problem.residual_count);
-    std::vector<double> jacobian(problem.residual_count * p);
-    if (!problem.evaluate(theta, residuals, jacobian)) return {};
-    deviance.push_back(event_spread_offset(there));
-    slopes.emplace_back(p, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      deviance.back() += residuals[i] * residuals[i];
-      for (std::size_t j = 0; j < p; ++j) slopes.back()[j] += residuals[i] * jacobian[i * p + j];
-    }
-  }
-  double information = 0.5 * (deviance[2] - 2.0 * deviance[1] + deviance[0]) / (step * step);
-  std::vector<double> b(p, 0.0);
-  for (std::size_t j = 0; j < p; ++j) {
-    for (std::size_t k = 0; k < p; ++k) {
-      b[j] -= C[j * p + k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);
-    }
-  }
-  for (std::size_t k = 0; k < p; ++k) {
-    information += b[k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);  // - g'C g
-  }
-  const double variance = 1.0 / std::max(information, 1.0);
-  std::vector<double> added(p * p);
-  for (std::size_t j = 0; j < p; ++j) {
-    for (std::size_t k = 0; k < p; ++k) added[j * p + k] = variance * b[j] * b[k];
-  }
-  return added;
-}
-
-double event_spread_offset(const Observations& data) {
-  double sum = 0.0;
-  for (const Observation& point : data.points) {
-    if (!(point.weights.scatter > 0.0) || point.censored) continue;
-    sum += point.weights.peak.deviance + 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
-  }
-  return sum;
-}
-
-namespace {
-
 constexpr int most_rounds = 25;
 // A replicate drops a variance function that is so far behind another one, in the criterion of
 // both.
@@ -577,6 +510,69 @@ ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
 }
 
 }  // namespace
+
+bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
+                        Observations& data) {
+  if (!(data.noise.event_spread > 0.0)) return true;
+  Renewal renewal(data, Renewal::What::event_spread);
+  PointPredictor points(model, data.conditions());
+  const auto answers = ask(model, theta, points, renewal);
+  if (answers) renewal.learn(answers->at, answers->beside);
+  return answers.has_value();
+}
+
+std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
+                                            const Observations& data, std::span<const double> C) {
+  if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
+  Observations own = data;
+  Renewal renewal(own, Renewal::What::event_spread);
+  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
+  const auto answers = ask(model, theta, *points, renewal);
+  if (!answers) return {};
+  const std::size_t n = data.points.size();
+  const std::size_t p = theta.size();
+  constexpr double step = 0.1;
+  std::vector<double> deviance;             // T at ln omega - step, 0, + step
+  std::vector<std::vector<double>> slopes;  // half of dT / d theta there
+  for (const double by : {-step, 0.0, step}) {
+    const Observations there = renewal.with_spread(answers->at, answers->beside, std::exp(by));
+    const LeastSquaresProblem problem = impact_problem(model, there, nullptr, points);
+    std::vector<double> residuals(problem.residual_count);
+    std::vector<double> jacobian(problem.residual_count * p);
+    if (!problem.evaluate(theta, residuals, jacobian)) return {};
+    deviance.push_back(event_spread_offset(there));
+    slopes.emplace_back(p, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      deviance.back() += residuals[i] * residuals[i];
+      for (std::size_t j = 0; j < p; ++j) slopes.back()[j] += residuals[i] * jacobian[i * p + j];
+    }
+  }
+  double information = 0.5 * (deviance[2] - 2.0 * deviance[1] + deviance[0]) / (step * step);
+  std::vector<double> b(p, 0.0);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) {
+      b[j] -= C[j * p + k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);
+    }
+  }
+  for (std::size_t k = 0; k < p; ++k) {
+    information += b[k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);  // - g'C g
+  }
+  const double variance = 1.0 / std::max(information, 1.0);
+  std::vector<double> added(p * p);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) added[j * p + k] = variance * b[j] * b[k];
+  }
+  return added;
+}
+
+double event_spread_offset(const Observations& data) {
+  double sum = 0.0;
+  for (const Observation& point : data.points) {
+    if (!(point.weights.scatter > 0.0) || point.censored) continue;
+    sum += point.weights.peak.deviance + 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
+  }
+  return sum;
+}
 
 double penalty_of(VarianceFunction function) {
   switch (function) {

@@ -15,7 +15,7 @@
 #include "estimate/reweighting.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/intervals.hpp"
-#include "uncertainty/profile.hpp"
+#include "uncertainty/refit.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {

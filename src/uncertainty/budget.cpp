@@ -10,7 +10,7 @@
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "uncertainty/profile.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace recoil {
 namespace {
