@@ -8,8 +8,8 @@
 
 #include "data/dataset.hpp"
 #include "experiment/pairing_files.hpp"
+#include "validation/studies/pairing_score.hpp"
 #include "validation/synthetic/event_stream.hpp"
-#include "validation/synthetic/pairing_score.hpp"
 
 namespace {
 

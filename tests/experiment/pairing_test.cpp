@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "experiment/flight.hpp"
+#include "validation/studies/pairing_score.hpp"
 #include "validation/synthetic/event_stream.hpp"
-#include "validation/synthetic/pairing_score.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "validation/studies/pairing_score.hpp"
 #include "validation/studies/study_tables.hpp"
-#include "validation/synthetic/pairing_score.hpp"
 
 namespace recoil {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/synthetic/pairing_score.hpp"
+#include "validation/studies/pairing_score.hpp"
 
 #include <utility>
 #include <vector>
