@@ -273,8 +273,7 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
 
 void add_cluster(Program& program) {
   const Command command = program.command(
-      "cluster", "write scripts that run a command in shards on a cluster and merge the shards");
-  command.footer(R"(
+      "cluster", "write scripts that run a command in shards on a cluster and merge the shards", R"(
 Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
 scripts. All machines must find the folder, the program and the data under the same paths.
 

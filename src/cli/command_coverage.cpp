@@ -143,8 +143,7 @@ void run(const Options& options) {
 
 void add_coverage(Program& program) {
   const Command command =
-      program.command("coverage", "measure how often the intervals contain the truth");
-  command.footer(R"(
+      program.command("coverage", "measure how often the intervals contain the truth", R"(
 Simulates data sets of the same design with the fitted values as the truth, fits each of them,
 and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
 finished work, and the same command then continues.

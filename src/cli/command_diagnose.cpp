@@ -136,8 +136,7 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 
 void add_diagnose(Program& program) {
   const Command command = program.command(
-      "diagnose", "find what the model gets wrong and why, and what an extended model gains");
-  command.footer(R"(
+      "diagnose", "find what the model gets wrong and why, and what an extended model gains", R"(
 Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
 and in pairs. The verdict is one of
   adequate        the residuals show no structure

@@ -230,8 +230,7 @@ void run_export(const ExportOptions& options) {
 
 void add_export(Program& program) {
   const Command command = program.command(
-      "export", "write a fitted impact as input for another program, or as a table");
-  command.footer(R"(
+      "export", "write a fitted impact as input for another program, or as a table", R"(
 Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
 YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its own
 contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) with

@@ -73,8 +73,7 @@ void run_fit(const FitFlags& flags) {
 
 void add_fit(Program& program) {
   const Command command =
-      program.command("fit", "fit all points, with intervals and the two-point comparison");
-  command.footer(R"(
+      program.command("fit", "fit all points, with intervals and the two-point comparison", R"(
 Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the
 data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in DIR;
 the same command then continues.

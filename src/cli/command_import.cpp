@@ -95,8 +95,7 @@ void run_import(ImportFlags flags, const Command& command) {
 void add_import(Program& program) {
   const Command command = program.command(
       "import",
-      "make a dataset folder from digitised points, drop heights, bounce times or any table");
-  command.footer(R"(
+      "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
 Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
 bounces), track (heights over time) and csv. --map assigns columns to quantities, with units: um, mm, cm, m, in; m/s, km/h;
 s, ms; % (recoil help data). On a terminal, import asks for what is missing. It overwrites points only with --replace.

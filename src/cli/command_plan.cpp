@@ -176,8 +176,7 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
 
 void add_plan(Program& program) {
   const Command command = program.command(
-      "plan", "plan an experiment: which velocities and sizes to measure, and how often");
-  command.footer(R"(
+      "plan", "plan an experiment: which velocities and sizes to measure, and how often", R"(
 Needs a fit file and datasets with materials; the datasets need no points yet. The plan
 determines the free parameters and the capture velocities with the fewest impacts, and states
 the errors to expect. It depends on the assumed parameters: repeat it with --parameters after

@@ -209,8 +209,7 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(Program& program) {
-  const Command command = program.command("report", "write a page for every fit, and an index");
-  command.footer(R"(
+  const Command command = program.command("report", "write a page for every fit, and an index", R"(
 Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
 not changed are kept.
 

@@ -258,9 +258,8 @@ void simulate(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(Program& program) {
-  const Command command =
-      program.command("simulate", "simulate one impact, with its energy budget and force history");
-  command.footer(R"(
+  const Command command = program.command(
+      "simulate", "simulate one impact, with its energy budget and force history", R"(
 Uses the initial values of the fit file, or with --parameters the values of a fit.json.
 
   recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)");

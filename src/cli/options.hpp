@@ -80,8 +80,6 @@ class Command {
                 const std::string& meaning) const;
   Option flag(const std::string& name, bool& value, const std::string& meaning) const;
 
-  /// Text after the list of options. It may begin on a line of its own.
-  void footer(const std::string& text) const;
   /// Called once the command line was read.
   void runs(const std::function<void()>& action) const;
   /// Words that are no options are kept for `other_words`.
@@ -109,7 +107,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  Command command(const std::string& name, const std::string& meaning);
+  /// @param footer text after the list of options; it may begin on a line of its own
+  Command command(const std::string& name, const std::string& meaning, const std::string& footer);
   std::vector<Command> commands() const;
 
   /// Runs the command in `words`, or prints the help.
