@@ -79,13 +79,6 @@ std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   return sha256_hex(text) + "\n";
 }
 
-bool is_current(const fs::path& stamp, const std::string& expected,
-                const std::vector<fs::path>& files) {
-  const bool all_there =
-      std::all_of(files.begin(), files.end(), [](const fs::path& f) { return fs::exists(f); });
-  return all_there && sha256_of_file(stamp) == sha256_hex(expected);
-}
-
 /// Diagnoses a fit, and at the same time puts the fits under every law into
 /// `analysis`: these take one thread, and a diagnosis does not keep all threads
 /// busy.
@@ -127,7 +120,10 @@ struct PageFiles {
   fs::path stamp = folder / "inputs.sha256";
 
   bool are_current(const std::string& expected) const {
-    return is_current(stamp, expected, {page, json, text, picture, picture_data, diagnosed, laws});
+    const auto files = {page, json, text, picture, picture_data, diagnosed, laws};
+    return std::all_of(files.begin(), files.end(),
+                       [](const fs::path& f) { return fs::exists(f); }) &&
+           sha256_of_file(stamp) == sha256_hex(expected);
   }
 };
 
