@@ -17,12 +17,8 @@ namespace recoil {
 
 namespace {
 
-struct Options {
-  std::string fit_file;
-  std::string out;
+struct Options : CommonFlags {
   int datasets = 100;
-  bool json = false;
-  AnalysisFlags analysis;
   ShardFlags shards;
 };
 

@@ -20,16 +20,11 @@
 namespace recoil {
 namespace {
 
-struct ExportOptions {
-  std::string fit_file;
+struct ExportOptions : CommonFlags {
   std::string to;
   double diameter = 0.0;         // [um]; 0: not stated
   std::vector<double> velocity;  // [m/s]
-  std::string dataset;
-  std::string parameters;
-  std::string out;
   bool stock = false;
-  AnalysisFlags analysis;
 };
 
 /// A model with its values, and what is known of them.

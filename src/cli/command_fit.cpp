@@ -15,12 +15,7 @@
 namespace recoil {
 namespace {
 
-struct FitFlags {
-  std::string fit_file;
-  std::string out;
-  bool json = false;
-  bool verbose = false;
-  AnalysisFlags analysis;
+struct FitFlags : CommonFlags {
   ShardFlags shards;
 };
 

@@ -24,16 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PlanFlags {
-  std::string fit_file;
+struct PlanFlags : CommonFlags {
   std::map<std::string, double> assumed;  ///< by the name of the parameter; those that were given
-  std::string parameters;
-  std::vector<double> velocity;   // [m/s]
-  std::vector<double> diameters;  // [um]
+  std::vector<double> velocity;           // [m/s]
+  std::vector<double> diameters;          // [um]
   PlanOptions plan;
-  std::string out;
   bool replace = false;
-  bool json = false;
 };
 
 /// The velocities and diameters that were asked for, or else those of the

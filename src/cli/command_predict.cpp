@@ -13,16 +13,11 @@
 namespace recoil {
 namespace {
 
-struct PredictOptions {
-  std::string fit_file;
+struct PredictOptions : CommonFlags {
   std::string sizes;
   std::string unit;
-  std::string dataset;
-  std::string out;
   std::optional<double> height;  // [mm]
   bool midpoints = false;
-  bool json = false;
-  AnalysisFlags analysis;
 };
 
 void run_predict(const PredictOptions& options) {

@@ -23,14 +23,10 @@ namespace {
 
 constexpr std::size_t indent = 2;  // of tables
 
-struct SimulateOptions {
-  std::string fit_file;
+struct SimulateOptions : CommonFlags {
   double velocity = 0.0;  // [m/s]
   double diameter = 0.0;  // [um]
-  std::string dataset;
-  std::string parameters;
   std::string history;
-  bool json = false;
 };
 
 std::string history_csv(const SimulatedImpact& simulated) {

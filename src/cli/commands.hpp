@@ -60,6 +60,17 @@ struct AnalysisFlags {
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
+/// What most commands are given.
+struct CommonFlags {
+  std::string fit_file;
+  std::string dataset;     ///< id; empty: the first
+  std::string parameters;  ///< a fit.json; empty: none
+  std::string out;         ///< where files are written; empty: nowhere
+  bool json = false;
+  bool verbose = false;
+  AnalysisFlags analysis;
+};
+
 /// A seed that was given.
 inline std::optional<std::uint64_t> stated_seed(std::int64_t seed) {
   return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed));
