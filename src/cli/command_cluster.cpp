@@ -11,7 +11,6 @@
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/names.hpp"
 #include "core/quoting.hpp"
 #include "core/resumable.hpp"
 #include "document/sentence.hpp"
@@ -19,27 +18,21 @@
 
 namespace recoil {
 
-/// The system that starts the shards.
-enum class ClusterSystem { slurm, parallel };
-template <>
-struct NamesOf<ClusterSystem> {
-  static constexpr std::array<std::string_view, 2> names = {"slurm", "parallel"};
-};
-
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A command that runs in shards.
 struct ClusterJob {
-  ClusterSystem system = ClusterSystem::slurm;
-  std::filesystem::path recoil;    ///< the program, under the same path on every machine
-  std::filesystem::path where;     ///< the working directory of the command
-  std::filesystem::path folder;    ///< for parts, scripts and results, absolute
-  std::vector<std::string> words;  ///< "fit", "my.toml", ...
+  std::string system;  ///< that starts the shards: "slurm" or "parallel"
   std::size_t shards = 1;
-  int cpus = 1;         ///< of each shard
-  long seconds = 3600;  ///< limit of each shard [s]
+  std::string out;
+  int cpus = 1;                    ///< of each shard
+  std::string time = "01:00:00";   ///< limit of each shard
+  fs::path recoil = {};            ///< the program, as every machine finds it
+  fs::path where = {};             ///< the folder in which the command is given
+  fs::path folder = {};            ///< of parts, scripts and results, absolute
+  std::vector<std::string> words;  ///< "fit", "my.toml", ...
 };
 
 const char* const shard_script = R"(#!/bin/sh
@@ -159,24 +152,16 @@ std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
                       {"WORDS", joined(job.words, " ", shell_word)},
                       {"CPUS", fmt::format("{}", job.cpus)},
                       {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)},
-                      {"TIME", clock_time(job.seconds)},
+                      {"TIME", clock_time(*seconds_named(job.time))},
                       {"AT", "@"}})};
   };
-  if (job.system == ClusterSystem::slurm) {
+  if (job.system == "slurm") {
     return {script("shard.sh", shard_script), script("array.sbatch", slurm_array),
             script("run.sh", slurm_run)};
   }
   return {script("shard.sh", shard_script), script("merge.sh", merge_script),
           script("run.sh", parallel_run)};
 }
-
-struct ClusterFlags {
-  std::string system;
-  std::size_t shards = 0;
-  std::string out;
-  int cpus = 1;
-  std::string time = "01:00:00";
-};
 
 const char* const shareable[] = {"fit", "coverage", "diagnose"};
 
@@ -230,14 +215,12 @@ std::string complaint_about_time(const std::string& text) {
              : fmt::format("{} is not hours:minutes:seconds, at least 00:10:00", text);
 }
 
-void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& words) {
+void write_scripts(ClusterJob job, const std::vector<std::string>& words) {
   require_valid(words);
-  require_writable_folder(flags.out);
-  ClusterJob job;
-  job.system = value_named<ClusterSystem>(flags.system).value_or(ClusterSystem::slurm);
+  require_writable_folder(job.out);
   job.recoil = fs::read_symlink("/proc/self/exe");
   job.where = fs::current_path();
-  job.folder = fs::absolute(flags.out).lexically_normal();
+  job.folder = fs::absolute(job.out).lexically_normal();
   if (!job.folder.has_filename()) job.folder = job.folder.parent_path();
   const std::string name = job.folder.string();
   if (name.find_first_of("\"'\\%\n\t") != std::string::npos) {
@@ -246,9 +229,6 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
                      "choose another folder");
   }
   job.words = words;
-  job.shards = flags.shards;
-  job.cpus = flags.cpus;
-  job.seconds = *seconds_named(flags.time);
   const std::vector<WholeFile> scripts = cluster_scripts(job);
   write_whole_files(scripts);
   for (const WholeFile& file : scripts) {
@@ -257,43 +237,42 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
                       fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);
     }
-    print_text("{}: written\n", (fs::path(flags.out) / file.path.filename()).string());
+    print_text("{}: written\n", (fs::path(job.out) / file.path.filename()).string());
   }
   constexpr std::size_t usual_limit = 1000;  // MaxArraySize - 1 of slurm.conf(5)
-  if (job.system == ClusterSystem::slurm && job.shards > usual_limit) {
+  if (job.system == "slurm" && job.shards > usual_limit) {
     print_text("note: Slurm takes at most {} shards where its MaxArraySize is the usual {}\n",
                usual_limit, usual_limit + 1);
   }
-  print_text("To start the job: sh {}\n", shell_word((fs::path(flags.out) / "run.sh").string()));
+  print_text("To start the job: sh {}\n", shell_word((fs::path(job.out) / "run.sh").string()));
 }
 
 }  // namespace
 
 void add_cluster(Program& program) {
   const Command command = program.command(
-      "cluster", "write scripts that run a command in shards on a cluster and merge the shards");
-  command.footer(
-      R"(Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
+      "cluster", "write scripts that run a command in shards on a cluster and merge the shards", R"(
+Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
 scripts. All machines must find the folder, the program and the data under the same paths.
 
   recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big
   recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big)");
-  const auto flags = std::make_shared<ClusterFlags>();
-  command.option("SYSTEM", flags->system, "slurm, or parallel (GNU parallel)")
+  const auto job = std::make_shared<ClusterJob>();
+  command.option("SYSTEM", job->system, "slurm, or parallel (GNU parallel)")
       .required()
-      .one_of(all_names<ClusterSystem>());
-  command.option("--shards", flags->shards, "how many").required().within(1, most_shards);
-  command.option("--out", flags->out, "folder for scripts, parts and results")
+      .one_of({"slurm", "parallel"});
+  command.option("--shards", job->shards, "how many").required().within(1, most_shards);
+  command.option("--out", job->out, "folder for scripts, parts and results")
       .required()
       .takes("DIR");
-  command.option("--cpus", flags->cpus, "threads of each shard").shows_default().within(1, 4096);
+  command.option("--cpus", job->cpus, "threads of each shard").shows_default().within(1, 4096);
   command
-      .option("--time", flags->time,
+      .option("--time", job->time,
               "time limit of each shard, hours:minutes:seconds, at least 00:10:00")
       .shows_default()
       .check(complaint_about_time);
   command.allows_other_words();
-  command.runs([flags, command] { write_scripts(*flags, words_of_job(command.other_words())); });
+  command.runs([job, command] { write_scripts(*job, words_of_job(command.other_words())); });
 }
 
 }  // namespace recoil

@@ -17,12 +17,8 @@ namespace recoil {
 
 namespace {
 
-struct Options {
-  std::string fit_file;
-  std::string out;
+struct Options : CommonFlags {
   int datasets = 100;
-  bool json = false;
-  AnalysisFlags analysis;
   ShardFlags shards;
 };
 
@@ -143,9 +139,8 @@ void run(const Options& options) {
 
 void add_coverage(Program& program) {
   const Command command =
-      program.command("coverage", "measure how often the intervals contain the truth");
-  command.footer(
-      R"(Simulates data sets of the same design with the fitted values as the truth, fits each of them,
+      program.command("coverage", "measure how often the intervals contain the truth", R"(
+Simulates data sets of the same design with the fitted values as the truth, fits each of them,
 and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
 finished work, and the same command then continues.
 

@@ -1,5 +1,4 @@
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -16,20 +15,14 @@
 namespace recoil {
 namespace {
 
-struct DiagnoseFlags {
-  std::string fit;
-  std::string out;
-  int threads = 0;
-  std::int64_t seed = -1;
+struct DiagnoseFlags : CommonFlags {
   int rates = 0;
-  bool json = false;
-  bool verbose = false;
   ShardFlags shards;
 
   DiagnosisOptions options(const FitSpec& spec) const {
     DiagnosisOptions chosen;
-    chosen.threads = threads;
-    chosen.seed = stated_seed(seed).value_or(spec.uncertainty.seed);
+    chosen.threads = analysis.threads;
+    chosen.seed = stated_seed(analysis.seed).value_or(spec.uncertainty.seed);
     return chosen;
   }
 };
@@ -48,7 +41,7 @@ std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInp
   const DesignRates rates(diagnosis, flags.rates);
   const Origin origin = flags.shards.origin(inputs.spec, inputs.datasets, diagnosis.options.seed,
                                             rates.pieces(), rates.digits());
-  const Pieces pieces = {"what these points could show", rates.pieces(), flags.threads,
+  const Pieces pieces = {"what these points could show", rates.pieces(), flags.analysis.threads,
                          [&](std::size_t piece) { return row_json(rates.run(piece)); }};
   const std::filesystem::path folder = flags.out;
   if (flags.shards.one_of_several()) {
@@ -67,7 +60,7 @@ std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInp
 
 void run_shard_of_calibration(const DiagnoseFlags& flags) {
   flags.shards.require_share(flags.out, 1);
-  const FitInputs inputs = load_inputs(flags.fit);
+  const FitInputs inputs = load_inputs(flags.fit_file);
   if (flags.rates > 0) {
     Diagnosis diagnosis = diagnose(inputs.spec, inputs.datasets, flags.options(inputs.spec));
     measure_rates(flags, inputs, diagnosis);
@@ -77,7 +70,7 @@ void run_shard_of_calibration(const DiagnoseFlags& flags) {
   const Origin origin = origin_of_calibration(flags, inputs, calibration);
   const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, flags.out);
   if (!kept) return;
-  const Pieces pieces = {"diagnosis", calibration.pieces(), flags.threads,
+  const Pieces pieces = {"diagnosis", calibration.pieces(), flags.analysis.threads,
                          [&](std::size_t piece) { return row_json(calibration.run(piece)); }};
   flags.shards.run_share(pieces, *kept, origin, flags.out);
 }
@@ -104,7 +97,7 @@ std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& 
 void run_diagnosis(const DiagnoseFlags& flags) {
   const std::filesystem::path folder = flags.out;
   if (!flags.out.empty()) require_writable_folder(folder);
-  const FitInputs inputs = load_inputs(flags.fit);
+  const FitInputs inputs = load_inputs(flags.fit_file);
   std::optional<Claim> claim;
   if (!flags.out.empty()) {
     require_free({folder / "extended.toml"});
@@ -136,9 +129,8 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 
 void add_diagnose(Program& program) {
   const Command command = program.command(
-      "diagnose", "find what the model gets wrong and why, and what an extended model gains");
-  command.footer(
-      R"(Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
+      "diagnose", "find what the model gets wrong and why, and what an extended model gains", R"(
+Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
 and in pairs. The verdict is one of
   adequate        the residuals show no structure
   cause_named     exactly one cause of the catalogue explains the misfit
@@ -151,11 +143,11 @@ continues.
   recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis
   recoil fit diagnosis/extended.toml)");
   const auto flags = std::make_shared<DiagnoseFlags>();
-  add_fit_file(command, flags->fit);
+  add_fit_file(command, flags->fit_file);
   command.option("--out", flags->out, "folder for the results (default: nothing is written)")
       .takes("DIR");
-  add_threads(command, flags->threads);
-  add_seed(command, flags->seed, "the simulated data sets");
+  add_threads(command, flags->analysis.threads);
+  add_seed(command, flags->analysis.seed, "the simulated data sets");
   command
       .option("--rates", flags->rates,
               "also measure the error rates of the diagnosis for this design: simulate and "

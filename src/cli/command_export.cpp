@@ -20,16 +20,11 @@
 namespace recoil {
 namespace {
 
-struct ExportOptions {
-  std::string fit_file;
+struct ExportOptions : CommonFlags {
   std::string to;
   double diameter = 0.0;         // [um]; 0: not stated
   std::vector<double> velocity;  // [m/s]
-  std::string dataset;
-  std::string parameters;
-  std::string out;
   bool stock = false;
-  AnalysisFlags analysis;
 };
 
 /// A model with its fitted values and their source.
@@ -225,9 +220,8 @@ void run_export(const ExportOptions& options) {
 
 void add_export(Program& program) {
   const Command command = program.command(
-      "export", "write a fitted impact as input for another program, or as a table");
-  command.footer(
-      R"(Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
+      "export", "write a fitted impact as input for another program, or as a table", R"(
+Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
 YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its own
 contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) with
 captures. Every file states what it leaves out.

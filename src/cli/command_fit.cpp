@@ -15,12 +15,7 @@
 namespace recoil {
 namespace {
 
-struct FitFlags {
-  std::string fit_file;
-  std::string out;
-  bool json = false;
-  bool verbose = false;
-  AnalysisFlags analysis;
+struct FitFlags : CommonFlags {
   ShardFlags shards;
 };
 
@@ -73,9 +68,8 @@ void run_fit(const FitFlags& flags) {
 
 void add_fit(Program& program) {
   const Command command =
-      program.command("fit", "fit all points, with intervals and the two-point comparison");
-  command.footer(
-      R"(Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the
+      program.command("fit", "fit all points, with intervals and the two-point comparison", R"(
+Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the
 data and the seed, not on the number of threads. Ctrl-C keeps the finished replicates in DIR;
 the same command then continues.
 

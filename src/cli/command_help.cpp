@@ -65,15 +65,15 @@ void add_help(Program& program) {
     std::string folder;
   };
   const auto options = std::make_shared<Options>();
-  const Command command = program.command("help", "print a page of the manual");
+  const Command command = program.command("help", "print a page of the manual", R"(
+The program contains the pages of docs/.
+
+  recoil help
+  recoil help noise)");
   command.option("TOPIC", options->topic, "name of the page (default: list all pages)");
   command.option("--write-docs", options->folder, "the tables that are made from the code")
       .takes("DIR")
       .hidden();
-  command.footer(R"(The program contains the pages of docs/.
-
-  recoil help
-  recoil help noise)");
   command.runs([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);

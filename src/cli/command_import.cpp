@@ -18,11 +18,8 @@ namespace {
 
 struct ImportFlags {
   ImportRequest request;
-  std::string file;
   std::string format;
   std::string provenance;
-  std::string into;
-  std::string like;
 };
 
 /// An option that only some formats use.
@@ -63,9 +60,6 @@ void require_used(const Command& command, ImportFormat format) {
 }
 
 void run_import(ImportFlags flags, const Command& command) {
-  flags.request.file = flags.file;
-  flags.request.into = flags.into;
-  flags.request.like = flags.like;
   const auto format = value_named<ImportFormat>(flags.format);
   if (!format) {
     throw InputError({}, fmt::format("--format {}: there is no such format", quote(flags.format)),
@@ -73,13 +67,13 @@ void run_import(ImportFlags flags, const Command& command) {
   }
   flags.request.format = *format;
   require_used(command, *format);
-  require_writable_folder(flags.into);
+  require_writable_folder(flags.request.into);
   const Claim claim(flags.request.into / "points.csv");
   flags.request.provenance = value_named<Provenance>(flags.provenance);
   const ImportResult result = import_points(flags.request);
   print_text("{}", dataset_text(result.dataset));
   for (const ImportNote& note : result.notes) print_text("note: {}\n", note_sentence(note));
-  print_text("{}: written\n", flags.into);
+  print_text("{}: written\n", flags.request.into.string());
   const std::filesystem::path fit_file = flags.request.into / "fit.toml";
   std::error_code failed;
   if (!std::filesystem::exists(fit_file, failed)) {
@@ -95,9 +89,8 @@ void run_import(ImportFlags flags, const Command& command) {
 void add_import(Program& program) {
   const Command command = program.command(
       "import",
-      "make a dataset folder from digitised points, drop heights, bounce times or any table");
-  command.footer(
-      R"(Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
+      "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
+Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
 bounces), track (heights over time) and csv. --map assigns columns to quantities, with units: um,
 mm, cm, m, in; m/s, km/h; s, ms; % (recoil help data). On a terminal, import asks for what is
 missing. It overwrites points only with --replace.
@@ -114,12 +107,12 @@ missing. It overwrites points only with --replace.
     --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)");
   const auto flags = std::make_shared<ImportFlags>();
   ImportRequest& r = flags->request;
-  command.option("FILE", flags->file, "what to import").required();
+  command.option("FILE", r.file, "what to import").required();
   command
       .option("--format", flags->format,
               fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
       .required();
-  command.option("--into", flags->into, "the dataset's folder").required();
+  command.option("--into", r.into, "the dataset's folder").required();
   command.flag("--replace", r.replace,
                "replace the points of an existing dataset and keep its materials; a reconstruction "
                "becomes digitised");
@@ -146,7 +139,7 @@ missing. It overwrites points only with --replace.
                  "material=...,density=...,youngs_modulus=...,poisson_ratio=...");
   command.option("--surface", r.surface,
                  "the surface, in the same form; its density may be left out");
-  command.option("--like", flags->like, "take the materials of this dataset");
+  command.option("--like", r.like, "take the materials of this dataset");
   command.option("--adhesion-energy", r.adhesion_energy,
                  "work of adhesion of the two materials [J/m2]; 0: no adhesion");
   command

@@ -206,9 +206,8 @@ void run_init(InitOptions options) {
 }  // namespace
 
 void add_init(Program& program) {
-  const Command command = program.command("init", "make a new dataset folder and a fit file");
-  command.footer(
-      R"(On a terminal, init asks for what the options leave out. Without --points the folder gets
+  const Command command = program.command("init", "make a new dataset folder and a fit file", R"(
+On a terminal, init asks for what the options leave out. Without --points the folder gets
 example points, which the model computes and which are labelled synthetic. Nothing is
 overwritten. For figures, drop heights and bounce times: recoil help import.
 

@@ -56,9 +56,8 @@ void merge(const MergeFlags& flags) {
 
 void add_merge(Program& program) {
   const Command command =
-      program.command("merge", "combine the shards of a command into one result");
-  command.footer(
-      R"(Prints and writes to DIR exactly what the command without --shard would have printed and
+      program.command("merge", "combine the shards of a command into one result", R"(
+Prints and writes to DIR exactly what the command without --shard would have printed and
 written. merge rejects shards that come from other inputs, seeds, commands or builds of
 recoil. It lists missing shards in the form of Slurm's option --array.
 

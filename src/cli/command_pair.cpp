@@ -269,9 +269,9 @@ void add_output_options(const Command& app, PairCommand& command) {
 void add_pair(Program& program) {
   const Command app = program.command("pair",
                                       "find impacts in the passages that a phase Doppler "
-                                      "instrument records, and average them into points");
-  app.footer(
-      R"(A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. The
+                                      "instrument records, and average them into points",
+                                      R"(
+A sphere crosses the measuring plane on its way down and, if it rebounds, on its way up. The
 time between is the time of free flight to the surface and back; both velocities and the
 height of the plane determine it. recoil finds the height at which most passages agree, then
 pairs passages by flight time and diameter, each with at most one other. Rebounds that come

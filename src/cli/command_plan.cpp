@@ -24,16 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PlanFlags {
-  std::string fit_file;
-  std::map<std::string, double> assumed;  ///< given values by the names of parameters
-  std::string parameters;
-  std::vector<double> velocity;   // [m/s]
-  std::vector<double> diameters;  // [um]
+struct PlanFlags : CommonFlags {
+  std::map<std::string, double> assumed;  ///< by the name of the parameter; those that were given
+  std::vector<double> velocity;           // [m/s]
+  std::vector<double> diameters;          // [um]
   PlanOptions plan;
-  std::string out;
   bool replace = false;
-  bool json = false;
 };
 
 /// Sets the requested velocities and diameters, or else those of the points.
@@ -175,9 +171,8 @@ void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& f
 
 void add_plan(Program& program) {
   const Command command = program.command(
-      "plan", "plan an experiment: which velocities and sizes to measure, and how often");
-  command.footer(
-      R"(Needs a fit file and datasets with materials; the datasets need no points yet. The plan
+      "plan", "plan an experiment: which velocities and sizes to measure, and how often", R"(
+Needs a fit file and datasets with materials; the datasets need no points yet. The plan
 determines the free parameters and the capture velocities with the fewest impacts, and states
 the errors to expect. It depends on the assumed parameters: repeat it with --parameters after
 the first results. With --out it writes plan.html (a page to read), plan.json and points.csv

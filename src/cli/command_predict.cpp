@@ -13,16 +13,11 @@
 namespace recoil {
 namespace {
 
-struct PredictOptions {
-  std::string fit_file;
+struct PredictOptions : CommonFlags {
   std::string sizes;
   std::string unit;
-  std::string dataset;
-  std::string out;
   std::optional<double> height;  // [mm]
   bool midpoints = false;
-  bool json = false;
-  AnalysisFlags analysis;
 };
 
 void run_predict(const PredictOptions& options) {
@@ -63,9 +58,8 @@ void run_predict(const PredictOptions& options) {
 
 void add_predict(Program& program) {
   const Command command =
-      program.command("predict", "predict the mean restitution of a mixture of sizes");
-  command.footer(
-      R"(Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter and
+      program.command("predict", "predict the mean restitution of a mixture of sizes", R"(
+Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter and
 count) under three conventions: captured spheres count as e = 0; captured spheres are left out;
 captured spheres and those too slow to return to the measuring plane are left out. With --out it
 writes predict.csv, predict.json and a picture.

@@ -79,13 +79,6 @@ std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   return sha256_hex(text) + "\n";
 }
 
-bool is_current(const fs::path& stamp, const std::string& expected,
-                const std::vector<fs::path>& files) {
-  const bool all_there =
-      std::all_of(files.begin(), files.end(), [](const fs::path& f) { return fs::exists(f); });
-  return all_there && sha256_of_file(stamp) == sha256_hex(expected);
-}
-
 /// Diagnoses a fit. At the same time it adds the fits under every law to `analysis`: these take one
 /// thread, and a diagnosis does not use all threads.
 Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
@@ -126,7 +119,10 @@ struct PageFiles {
   fs::path stamp = folder / "inputs.sha256";
 
   bool are_current(const std::string& expected) const {
-    return is_current(stamp, expected, {page, json, text, picture, picture_data, diagnosed, laws});
+    const auto files = {page, json, text, picture, picture_data, diagnosed, laws};
+    return std::all_of(files.begin(), files.end(),
+                       [](const fs::path& f) { return fs::exists(f); }) &&
+           sha256_of_file(stamp) == sha256_hex(expected);
   }
 };
 
@@ -208,9 +204,8 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(Program& program) {
-  const Command command = program.command("report", "write a page for every fit, and an index");
-  command.footer(
-      R"(Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
+  const Command command = program.command("report", "write a page for every fit, and an index", R"(
+Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
 not changed are kept.
 
   recoil report                      every fits/*.toml into reports/

@@ -23,14 +23,10 @@ namespace {
 
 constexpr std::size_t indent = 2;  // of tables
 
-struct SimulateOptions {
-  std::string fit_file;
+struct SimulateOptions : CommonFlags {
   double velocity = 0.0;  // [m/s]
   double diameter = 0.0;  // [um]
-  std::string dataset;
-  std::string parameters;
   std::string history;
-  bool json = false;
 };
 
 std::string history_csv(const SimulatedImpact& simulated) {
@@ -256,10 +252,9 @@ void simulate(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(Program& program) {
-  const Command command =
-      program.command("simulate", "simulate one impact, with its energy budget and force history");
-  command.footer(
-      R"(Uses the initial values of the fit file, or with --parameters the values of a fit.json.
+  const Command command = program.command(
+      "simulate", "simulate one impact, with its energy budget and force history", R"(
+Uses the initial values of the fit file, or with --parameters the values of a fit.json.
 
   recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)");
   const auto options = std::make_shared<SimulateOptions>();

@@ -58,6 +58,17 @@ struct AnalysisFlags {
 
 void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
+/// Options that most commands share.
+struct CommonFlags {
+  std::string fit_file;
+  std::string dataset;     ///< id; empty: the first
+  std::string parameters;  ///< a fit.json; empty: none
+  std::string out;         ///< the folder of the results; empty: none is written
+  bool json = false;
+  bool verbose = false;
+  AnalysisFlags analysis;
+};
+
 /// The seed of the option --seed; nullopt if it is negative: not given.
 inline std::optional<std::uint64_t> stated_seed(std::int64_t seed) {
   return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed));

@@ -16,9 +16,8 @@ namespace recoil {
 
 void add_check(Program& program) {
   const Command command =
-      program.command("check", "validate a dataset folder and show its contents");
-  command.footer(
-      R"(Reads datapackage.json and the points that it names, converts the units and prints the result.
+      program.command("check", "validate a dataset folder and show its contents", R"(
+Reads datapackage.json and the points that it names, converts the units and prints the result.
 If a file contains an error, recoil prints one line:
   file:line:column: problem (why it is one); suggestion
 
@@ -30,9 +29,8 @@ If a file contains an error, recoil prints one line:
 
 void add_compare(Program& program) {
   const Command command = program.command(
-      "compare", "compare fits of the same data, for example with different laws of adhesion");
-  command.footer(
-      R"(Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with stated
+      "compare", "compare fits of the same data, for example with different laws of adhesion", R"(
+Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with stated
 standard deviations. The column "held out" is the error at diameters left out of the fit.
 
   recoil compare ring/fit.json jkr/fit.json dmt/fit.json)");
@@ -50,10 +48,9 @@ standard deviations. The column "held out" is the error at diameters left out of
 }
 
 void add_materials(Program& program) {
-  const Command command =
-      program.command("materials", "list the materials that --particle and --surface know by name");
-  command.footer(
-      R"(import and init take --particle NAME and --surface NAME; NAME,key=value changes a
+  const Command command = program.command(
+      "materials", "list the materials that --particle and --surface know by name", R"(
+import and init take --particle NAME and --surface NAME; NAME,key=value changes a
 constant. The constants enter the dataset with their errors.
 
   recoil import drops.csv --format heights --into ball --particle steel --surface glass ...

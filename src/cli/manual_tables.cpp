@@ -35,8 +35,7 @@ std::string capitalised(std::string text) {
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 
-// ---- commands
-// ------------------------------------------------------------------------------------
+// ---- commands ----------------------------------------------------------------------------------
 
 /// The options of these commands.
 std::string commands_table(const Program& program, const std::vector<std::string>& names) {
@@ -61,8 +60,7 @@ std::string commands_table(const Program& program, const std::vector<std::string
   return out;
 }
 
-// ---- catalogue
-// -----------------------------------------------------------------------------------
+// ---- catalogue ---------------------------------------------------------------------------------
 
 std::string mechanisms_table() {
   std::string out =
@@ -145,8 +143,7 @@ std::string base_parameters_table() {
   return out;
 }
 
-// ---- fit files
-// -----------------------------------------------------------------------------------
+// ---- fit files ---------------------------------------------------------------------------------
 
 std::string fit_keys_table(std::string_view table) {
   const bool defaults = table != "parameter";
@@ -168,8 +165,7 @@ std::string words_table(std::string_view key) {
   return fmt::format("{} takes {}.\n", code(key), words.substr(2));
 }
 
-// ---- datasets
-// ------------------------------------------------------------------------------------
+// ---- datasets ----------------------------------------------------------------------------------
 
 std::string units_table() {
   std::string out = "| columns | measure a | units |\n|---|---|---|\n";

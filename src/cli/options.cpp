@@ -234,10 +234,6 @@ Option Command::flag(const std::string& name, bool& value, const std::string& me
   return Option(app_->add_flag(name, value, meaning));
 }
 
-void Command::footer(const std::string& text) const {
-  app_->footer(text.substr(text.starts_with('\n') ? 1 : 0));
-}
-
 void Command::runs(const std::function<void()>& action) const { app_->callback(action); }
 
 void Command::allows_other_words() const { app_->allow_extras(); }
@@ -293,8 +289,11 @@ Program::Program(const std::string& meaning, const std::string& footer, const st
 
 Program::~Program() = default;
 
-Command Program::command(const std::string& name, const std::string& meaning) {
-  return Command(app_->add_subcommand(name, meaning));
+Command Program::command(const std::string& name, const std::string& meaning,
+                         const std::string& footer) {
+  CLI::App* const app = app_->add_subcommand(name, meaning);
+  app->footer(footer.substr(footer.starts_with('\n') ? 1 : 0));
+  return Command(app);
 }
 
 std::vector<Command> Program::commands() const {

@@ -79,8 +79,6 @@ class Command {
                 const std::string& meaning) const;
   Option flag(const std::string& name, bool& value, const std::string& meaning) const;
 
-  /// Sets the text after the list of options in the help.
-  void footer(const std::string& text) const;
   /// Sets the action of the command, which is called after parsing.
   void runs(const std::function<void()>& action) const;
   /// Keeps words that are no options for `other_words`.
@@ -108,7 +106,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  Command command(const std::string& name, const std::string& meaning);
+  /// @param footer text after the list of options; it may begin on a line of its own
+  Command command(const std::string& name, const std::string& meaning, const std::string& footer);
   std::vector<Command> commands() const;
 
   /// Parses `words` and runs their command, or prints the help.

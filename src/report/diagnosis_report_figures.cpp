@@ -9,6 +9,7 @@
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "predict/polydisperse.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
 #include "report/words_diagnosis.hpp"
@@ -135,12 +136,8 @@ TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, st
                     plot::Range velocities) {
   std::vector<PointConditions> points;
   TwoCurves curves;
-  for (int k = 0; k < curve_points; ++k) {
-    const double part = static_cast<double>(k) / (curve_points - 1);
-    const double velocity = velocities.lower * std::pow(velocities.upper / velocities.lower, part);
-    points.push_back({dataset, diameter, velocity, series});
-    curves.velocity.push_back(velocity);
-  }
+  curves.velocity = log_spaced(velocities.lower, velocities.upper, curve_points);
+  for (const double v : curves.velocity) points.push_back({dataset, diameter, v, series});
   const auto restitutions = [&](const FitResult& fit) {
     std::vector<double> values;
     for (const Prediction& one : predict(fit.model, fit.theta, points, false)) {

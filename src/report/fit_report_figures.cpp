@@ -208,6 +208,12 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel, const p
 
 // ---- residuals ---------------------------------------------------------------------------------
 
+/// Unit of the displayed residuals: 1, or the estimated noise where no deviation is stated.
+double residual_unit(const Analysis& analysis) {
+  const double scale = analysis.fitted.noise_scale;
+  return !analysis.fitted.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+}
+
 struct ResidualRow {
   double velocity;
   double diameter;

@@ -99,22 +99,6 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   return set;
 }
 
-double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
-  const FitResult& fitted = analysis.fitted;
-  const std::size_t slots = fitted.model.slots.size();
-  if (fitted.covariance.size() != slots * slots) return 0.0;
-  const double product = fitted.covariance[a * slots + a] * fitted.covariance[b * slots + b];
-  if (!(product > 0.0) || !std::isfinite(product)) return 0.0;
-  return std::clamp(fitted.covariance[a * slots + b] / std::sqrt(product), -1.0, 1.0);
-}
-
-Provenance weakest_provenance(const std::vector<Dataset>& datasets) {
-  // The enumerators stand in the order of how much they claim, the most first.
-  Provenance weakest = Provenance::measured;
-  for (const Dataset& dataset : datasets) weakest = std::max(weakest, dataset.provenance);
-  return weakest;
-}
-
 std::vector<std::pair<std::string, std::string>> provenances(const std::vector<Dataset>& datasets) {
   std::vector<std::pair<std::string, std::string>> list;
   for (const Dataset& dataset : datasets) {
@@ -174,11 +158,6 @@ ImpactConditions reference_conditions(const Analysis& analysis, std::size_t data
   const FitResult& fitted = analysis.fitted;
   return conditions_at(fitted.model, fitted.theta, dataset,
                        fitted.model.contacts[dataset].reference_diameter, velocity);
-}
-
-double residual_unit(const Analysis& analysis) {
-  const double scale = analysis.fitted.noise_scale;
-  return !analysis.fitted.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
 List list_of_sentences(const std::vector<Sentence>& sentences) {

@@ -71,12 +71,6 @@ Document page_of(const std::string& title, const std::string& name, std::vector<
 /// Every interval of one slot; with the reason filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
 
-/// Correlation of two slots from the covariance; 0 when either has no variance.
-double correlation(const Analysis& analysis, std::size_t a, std::size_t b);
-
-/// The weakest provenance among the datasets.
-Provenance weakest_provenance(const std::vector<Dataset>& datasets);
-
 /// (label, sentence) of each provenance among the datasets, without repetition.
 std::vector<std::pair<std::string, std::string>> provenances(const std::vector<Dataset>& datasets);
 
@@ -103,11 +97,8 @@ bool without_adhesion(const Analysis& analysis, std::size_t dataset);
 /// Is there adhesion on any dataset?
 bool adheres_anywhere(const ImpactModel& model);
 
-/// Shown in place of a capture velocity then.
+/// Shown in place of a capture velocity where there is no adhesion.
 inline constexpr const char* no_capture_words = "none (no adhesion)";
-
-/// Unit of the displayed residuals: 1, or the estimated noise where no deviation is stated.
-double residual_unit(const Analysis& analysis);
 
 /// A list of whole sentences: a capital at the start and a full stop at the end. Empty ones are
 /// left out.

@@ -37,6 +37,24 @@ std::string why_none(const Interval& interval) {
   return interval.available() ? "a bound is not finite" : missing_words(interval);
 }
 
+/// Correlation of two slots from the covariance; 0 when either has no variance.
+double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
+  const FitResult& fitted = analysis.fitted;
+  const std::size_t slots = fitted.model.slots.size();
+  if (fitted.covariance.size() != slots * slots) return 0.0;
+  const double product = fitted.covariance[a * slots + a] * fitted.covariance[b * slots + b];
+  if (!(product > 0.0) || !std::isfinite(product)) return 0.0;
+  return std::clamp(fitted.covariance[a * slots + b] / std::sqrt(product), -1.0, 1.0);
+}
+
+/// The weakest provenance among the datasets.
+Provenance weakest_provenance(const std::vector<Dataset>& datasets) {
+  // The enumerators stand in the order of how much they claim, the most first.
+  Provenance weakest = Provenance::measured;
+  for (const Dataset& dataset : datasets) weakest = std::max(weakest, dataset.provenance);
+  return weakest;
+}
+
 /// The datasets of a joint fit as one: ids joined by "+", the provenance that claims least.
 DatasetEntry joint_entry(const std::vector<Dataset>& datasets) {
   if (datasets.size() == 1) return dataset_entry(datasets.front());

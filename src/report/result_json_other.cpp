@@ -33,12 +33,10 @@ Json row_json(const CoverageRow& row) {
     entry["median_width"] = number_or_null(cell.median_width);
     intervals[cell.interval] = std::move(entry);
   }
-  return {{"parameter", row.parameter},
-          {"unit", row.unit},
-          {"truth", number_or_null(row.truth)},
-          {"identifiable", row.identifiable},
-          {"actual_error", number_or_null(row.actual_error)},
-          {"intervals", intervals}};
+  Json out = as_json(row);
+  out.erase("cells");
+  out["intervals"] = std::move(intervals);
+  return out;
 }
 
 }  // namespace

@@ -168,21 +168,15 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
 }
 
 std::string export_use(ExportTarget target) {
-  switch (target) {
-    case ExportTarget::lammps:
-      return "lmp -in impact.lammps -var V 2.4";
-    case ExportTarget::liggghts:
-      return "liggghts -in impact.liggghts -var V 2.4";
-    case ExportTarget::yade:
-      return "yade -n -x impact.py 2.4";
-    case ExportTarget::openfoam:
-      return "wmake in recoilRebound, then libs (\"librecoilRebound.so\"); in controlDict";
-    case ExportTarget::fluent:
-      return "compile recoil_rebound.c as a user-defined function of the wall";
-    case ExportTarget::table:
-      break;
-  }
-  return "restitution.csv has e(V, d), capture.csv V*(d)";
+  using enum ExportTarget;
+  static constexpr Phrase<ExportTarget> phrases[] = {
+      {lammps, "lmp -in impact.lammps -var V 2.4"},
+      {liggghts, "liggghts -in impact.liggghts -var V 2.4"},
+      {yade, "yade -n -x impact.py 2.4"},
+      {openfoam, "wmake in recoilRebound, then libs (\"librecoilRebound.so\"); in controlDict"},
+      {fluent, "compile recoil_rebound.c as a user-defined function of the wall"},
+      {table, "restitution.csv has e(V, d), capture.csv V*(d)"}};
+  return phrase_for(phrases, target).words;
 }
 
 }  // namespace recoil
