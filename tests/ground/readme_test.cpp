@@ -186,7 +186,7 @@ TEST(Readme, DiagnosisIsThatOfTheStudy) {
 
 TEST(Readme, PlainMethodsAreThoseOfTheStudy) {
   const fs::path report = tree::root() / "reports/hidden-effects.md";
-  const fs::path file = tree::root() / "docs/diagnose-accuracy.md";
+  const fs::path file = tree::root() / "docs/diagnose-compared.md";
   const auto asked = [](const fs::path& text) {
     return tree::text_of(text).find("\n| method |") != std::string::npos;
   };
