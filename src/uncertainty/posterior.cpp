@@ -82,7 +82,7 @@ bool scale_unknown(const FitResult& fitted) {
 /// A state of a chain.
 struct Place {
   std::vector<double> z, theta, residuals;
-  double log_density = -INFINITY;  ///< in z
+  double log_density = -INFINITY;  ///< posterior density in z, up to a constant
 };
 
 /// The posterior under one variance function, for one thread.

@@ -158,8 +158,8 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
 
 void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
                          RandomStream& random, Observations& sample) {
-  // A replicate with redrawn constants keeps the measured values, which follow the true constants,
-  // instead of simulated values about the curve of the stated ones.
+  // If constants are redrawn, the simulated noise is added to the measured values, which follow the
+  // true constants, not to the curve of the stated ones.
   const ImpactModel& model = plan.fitted->model;
   const bool other_constants = !model.constants.empty() && !model.adjusts_constants();
   sample.points = plan.fitted->data.points;

@@ -63,7 +63,8 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
 std::string obstacle_words(SchemeObstacle obstacle);
 
 /// Prepares the scheme `asked`. `automatic` becomes parametric if the standard deviations are
-/// stated, otherwise wild, which allows unequal scatter.
+/// stated, otherwise wild, which allows unequal scatter (parametric again if `scheme_obstacle`
+/// excludes wild).
 /// @pre !scheme_obstacle(asked, data)
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked);
 

@@ -18,7 +18,7 @@ struct PosteriorOptions {
   std::size_t length = 1000;  ///< draws kept per chain
   int most_steps =
       64000;  ///< largest number of steps per chain in one round; the sampler then stops
-  double largest_r_hat = 1.01;   ///< of every quantity
+  double largest_r_hat = 1.01;   ///< largest R-hat of every quantity
   double least_effective = 400;  ///< least effective draws of every quantity, in bulk and tails
 };
 
