@@ -72,7 +72,7 @@ struct IfExact {
 struct Detection {
   std::string id;         ///< id of the cause
   double strength = 1.0;  ///< its effect on e^2 over the estimated effect [1]
-  int datasets = 0;       ///< simulated
+  int datasets = 0;       ///< number of simulated data sets
   int named = 0;          ///< number in which it alone is named
   int listed = 0;         ///< number in which it is listed among others
   int wrong = 0;          ///< number in which only another cause is named

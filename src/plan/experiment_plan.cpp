@@ -18,7 +18,7 @@
 namespace recoil {
 namespace {
 
-constexpr int grid_velocities = 48;  // of each diameter
+constexpr int grid_velocities = 48;  // velocities of each diameter
 constexpr int fewest_points = 10;    // least number of points if the wanted error decides
 // The default range of velocities, relative to the smallest and the largest capture velocity.
 constexpr double below_capture = 0.8, above_capture = 30.0;
