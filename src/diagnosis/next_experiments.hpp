@@ -32,7 +32,7 @@ struct NextExperiment {
   /// e predicted by `one` minus e predicted by `other` [1]. For kind `condition`, the change
   /// removes the mechanism of `one`.
   double difference = 0.0;
-  int events = 0;         ///< impacts for expected odds of 99 to 1
+  int events = 0;         ///< number of impacts for expected odds of 99 to 1
   double log_odds = 0.0;  ///< expected ln odds from that many impacts, at least ln 99
   Condition condition =
       Condition::ambient_pressure;  ///< for kind `condition`: the changed condition

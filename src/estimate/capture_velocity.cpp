@@ -95,7 +95,7 @@ class CaptureSearch {
   double captured_ = 0.0;  // largest V^2 seen that is captured
   double rebounds_ = 0.0;  // smallest V^2 seen that rebounds
   bool rebound_seen_ = false;
-  bool extended_ = false;  // mechanisms act
+  bool extended_ = false;  // true: mechanisms act
   bool done_ = false;
   int iterations_ = 0;
 };

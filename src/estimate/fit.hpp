@@ -21,7 +21,7 @@ enum class StartOutcome {
   not_converged,  ///< failed
 };
 
-/// Where one of several starts ended.
+/// The end of one of several starts.
 struct StartSummary {
   std::vector<double> start;
   std::vector<double> end;
@@ -71,7 +71,7 @@ struct FitResult {
                       ///< start from them
   std::vector<double> theta;                   ///< [slots]
   std::vector<bool> at_bound;                  ///< [slots]
-  DescentEnd ending = DescentEnd::minimum;     ///< of the last descent: minimum, valley or flat
+  DescentEnd ending = DescentEnd::minimum;     ///< end of the last descent: minimum, valley or flat
   Strategy strategy = Strategy::trust_region;  ///< strategy of the last descent
   std::vector<std::size_t>
       flat;  ///< slots without effect on any point; their values are undetermined
@@ -82,7 +82,7 @@ struct FitResult {
   /// deviation above its stated value [constant][slot]. `covariance` includes their outer products.
   std::vector<std::vector<double>> constant_effects;
   std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
-  std::vector<double> residuals;           ///< weighted, [points]
+  std::vector<double> residuals;           ///< weighted residuals [points]
   std::vector<double> prediction;          ///< e at each point [1]
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
@@ -156,7 +156,7 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
 
 /// A point whose removal makes the model fit the others.
 struct OddPoint {
-  std::size_t index = 0;  ///< among the observations
+  std::size_t index = 0;  ///< index of the observation
   double residual =
       0.0;            ///< its deviation from the prediction of the others, in standard deviations
   FitResult without;  ///< the fit to the others

@@ -11,7 +11,7 @@ namespace recoil {
 namespace {
 
 constexpr int most_steps = 30;
-constexpr double all_digits = 1e-13;  // of theta
+constexpr double all_digits = 1e-13;  // relative step below which theta does not change
 constexpr double rounding_of_sum =
     1e-9;  // relative; residuals may be small differences of large numbers
 

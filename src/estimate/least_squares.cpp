@@ -228,7 +228,7 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   result.iterations = static_cast<int>(summary.iterations.size());
 }
 
-/// d (sum of squares) / d theta_j / 2.
+/// Half of d (sum of squares) / d theta_j.
 double slope_along(const LeastSquaresResult& result, std::size_t j) {
   const std::size_t p = result.theta.size();
   double slope = 0.0;
@@ -272,7 +272,7 @@ int resting_side(const LeastSquaresProblem& problem, double theta, std::size_t j
   return rests_on_bound(theta, problem.upper[j]) ? 1 : 0;
 }
 
-/// The descent within the bounds.
+/// Descends within the bounds by the last strategy.
 LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
                                          std::span<const double> start,
                                          const std::vector<bool>& fixed,

@@ -21,7 +21,7 @@ struct MeasuredPoint {
   std::size_t series = 0;
   std::size_t setting = 0;         ///< setting of the apparatus: its points share an error
   std::size_t launch = no_launch;  ///< successive bounces of one launch share timing errors
-  std::size_t bounce = 0;          ///< its number within the launch
+  std::size_t bounce = 0;          ///< number of the bounce within the launch
   int line = 0;                    ///< line in the dataset's file of points
   double diameter = 0.0;           ///< [m]
   double velocity = 0.0;           ///< [m/s]

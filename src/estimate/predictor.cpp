@@ -351,7 +351,7 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 
 namespace {
 
-/// C_H, C_A, f0, then the parameters of the chain, as they act on `point`.
+/// The values of C_H, C_A, f0 and the parameters of the chain at `point`.
 std::vector<double> values_at(const ImpactModel& model, std::span<const double> theta,
                               const PointConditions& point) {
   std::vector<double> values = {theta[model.slot_C_H[point.dataset]],

@@ -156,7 +156,7 @@ class Line {
   double square() const { return rest_.squaredNorm(); }
   double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
   Eigen::Index columns() const { return inverse_.cols(); }
-  /// Is there an error, stated or seen?
+  /// Is an error known, stated or from the scatter?
   bool has_errors() const { return solvable_ && (stated_ || scatters_); }
   std::string missing() const {
     return dof_ < 1 ? "as many unknowns as readings, and no error is stated"

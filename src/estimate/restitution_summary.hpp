@@ -10,7 +10,7 @@
 
 namespace recoil {
 
-inline constexpr double summary_level = 0.95;  ///< of every interval of a summary
+inline constexpr double summary_level = 0.95;  ///< level of every interval of a summary
 
 /// A mean of e over the points of one series and diameter, or of one setting (a drop height) of it.
 struct RestitutionMean {

@@ -139,7 +139,7 @@ struct FitFile {
 
   /// The interval to quote, and the reason.
   struct Recommended {
-    std::optional<std::string> interval;  ///< its key
+    std::optional<std::string> interval;  ///< key of the interval
     std::string why;
     RECOIL_FIELDS(interval, why)
   };

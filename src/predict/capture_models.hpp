@@ -8,7 +8,7 @@ namespace recoil {
 /// The inputs of the older capture models for one sphere on one surface, in SI units.
 struct CaptureContact {
   double diameter = 0.0;         ///< [m]
-  double density = 0.0;          ///< of the sphere [kg/m3]
+  double density = 0.0;          ///< density of the sphere [kg/m3]
   double reduced_modulus = 0.0;  ///< E* = (3/4) K [Pa]
   double adhesion_energy = 0.0;  ///< w = W_A, the work of adhesion [J/m2]
 

@@ -19,13 +19,13 @@ inline constexpr std::pair<double, double> diameter_limits_um = {1e-3, 1e6};
 struct SimulatedImpact {
   PointConditions asked;             ///< dataset, diameter [m], incident velocity [m/s]
   double restitution_squared = 0.0;  ///< as measured; below zero for a capture, see ImpactResult
-  bool extended = false;             ///< mechanisms act
+  bool extended = false;             ///< true: mechanisms act
   ImpactConditions conditions;       ///< at the contact
-  double diameter = 0.0;             ///< of the sphere, at the contact [m]
-  double density = 0.0;              ///< of the sphere [kg/m3]
+  double diameter = 0.0;             ///< diameter of the sphere at the contact [m]
+  double density = 0.0;              ///< density of the sphere [kg/m3]
   ImpactGroups groups;
   ImpactScales scales;
-  ImpactResult impact;  ///< of the base model, with budget and gradient
+  ImpactResult impact;  ///< impact of the base model, with budget and gradient
   double jumps =
       0.0;  ///< energy that the jumps into and out of contact lose without damping [m V^2]
   WholeImpactEnergy whole;  ///< energy budget with mechanisms

@@ -373,7 +373,7 @@ struct PairTexts {
   std::string json, text, points, impacts;
 };
 
-/// @param json a PairArguments
+/// @param json a PairArguments object
 PairTexts pair_texts(const std::string& file, const std::string& json) {
   const auto arguments = value_from<PairArguments>(Json::parse(json));
   const PairRequest request = arguments.request(file);
@@ -387,7 +387,7 @@ PairTexts pair_texts(const std::string& file, const std::string& json) {
 
 // ---- errors ------------------------------------------------------------------------------------
 
-/// Raises an exception that is a class of the package.
+/// Raises an exception of a class of the package.
 void raise_as(const char* name, const py::tuple& arguments) {
   const py::object type = py::module_::import("recoil._errors").attr(name);
   PyErr_SetObject(type.ptr(), type(*arguments).ptr());

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """make_wheel.py PACKAGE OUT: packs the built package (build/release/python/recoil) as a wheel in
-OUT and prints its path. A wheel is a zip file of the package and a list of its files (PEP 427). This
-one works with the running Python version and on machines with the same libraries."""
+OUT and prints its path. A wheel is a zip file of the package and a list of its files (PEP 427).
+This one works with the running Python version and on machines with the same libraries."""
 
 import base64
 import hashlib

@@ -12,7 +12,7 @@ enum class CaptureIntervalKind {
   delta,  ///< V* exp(+- q sd(ln V*)), sd from the covariance and d V* / d theta; if the noise is
           ///< estimated, q is Student's quantile and the interval is averaged over the variance
           ///< functions
-  percentile,   ///< of the bootstrap
+  percentile,   ///< bootstrap percentiles
   studentized,  ///< bootstrap-t of ln V*, with errors from its gradient in every replicate
 };
 template <>
@@ -44,7 +44,7 @@ struct CaptureEstimate {
   std::optional<double> above;  ///< all impacts were captured, up to this velocity [m/s]
   std::optional<double> below;  ///< no impact was captured, from this velocity on [m/s]
   PerValue<CaptureIntervalKind, Interval> of_kind;
-  Interval interval;                                             ///< the one to quote
+  Interval interval;                                             ///< the interval to quote
   CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< kind of `interval`
   std::optional<CaptureBecause> because;                         ///< nullopt without a velocity
 

@@ -18,7 +18,7 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
 double capture_level(const std::vector<NoiseAlternative>& alternatives, const CaptureEstimate& at,
                      const FitResult& truth);
 
-/// The delta interval of V* at another level.
+/// The delta interval of V* [m/s] at another level.
 Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
                           const CaptureEstimate& at, double level);
 

@@ -14,7 +14,7 @@ enum class IntervalKind {
   wald,         ///< estimate and standard error
   profile,      ///< profile likelihood
   percentile,   ///< of the bootstrap
-  bca,          ///< of the bootstrap, corrected for bias and acceleration
+  bca,          ///< bootstrap percentiles, corrected for bias and acceleration
   studentized,  ///< bootstrap-t
 };
 template <>

@@ -163,7 +163,7 @@ class Posterior {
     return {centre, precision.inverse()};
   }
 
-  /// A draw of the scale of the noise, given the parameters.
+  /// Draws the scale of the noise, given the parameters.
   double draw_scale(const Place& place, RandomStream& random) const {
     const auto [scatter, rebounds, rest] = sums(place.residuals);
     return std::sqrt(scatter / gsl_cdf_chisq_Pinv(random.uniform(), rebounds));
