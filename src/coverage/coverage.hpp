@@ -23,8 +23,8 @@ struct CoverageCell {
   std::string interval;  ///< "wald", "profile", ..., "recommended"
   int offered = 0;       ///< number of data sets with such an interval
   int held = 0;          ///< number of these in which it contained the truth
-  int offered_identifiable =
-      0;  ///< the same for data sets in which the parameter was called identifiable
+  /// The same for data sets in which the parameter was called identifiable.
+  int offered_identifiable = 0;
   int held_identifiable = 0;
   double median_width = 0.0;  ///< [parameter's unit]
   RECOIL_FIELDS(interval, offered, held, offered_identifiable, held_identifiable, median_width)

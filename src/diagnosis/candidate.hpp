@@ -70,8 +70,8 @@ struct Refit {
   double chi2 = 0.0;              ///< sum of the squares of `residuals`
   std::vector<double> residuals;  ///< weighted, whitened by `discrepancy` [points]
   std::vector<double> jacobian;   ///< d residual / d theta [points x slots]
-  std::vector<bool>
-      moving;  ///< [slots] free and not at a bound; a constant if the points determine it
+  /// [slots] free and not at a bound; a constant if the points determine it.
+  std::vector<bool> moving;
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
 
   RECOIL_FIELDS(usable, theta, chi2, residuals, jacobian, moving)

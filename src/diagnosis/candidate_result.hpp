@@ -86,8 +86,8 @@ struct CandidateResult {
   /// correlated, a standard error alone does not show whether the limit matters.)
   double cost_of_possible = 0.0;
   bool plausible = true;  ///< all of its parameters are plausible
-  bool only_by_error =
-      false;  ///< a parameter lies outside of its allowed range by less than its error
+  /// A parameter lies outside of its allowed range by less than its error.
+  bool only_by_error = false;
   bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
 

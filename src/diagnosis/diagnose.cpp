@@ -27,8 +27,8 @@
 namespace recoil {
 namespace {
 
-constexpr double margin_at_one_size =
-    20.0;  // with one size, only the shape of one curve gives evidence
+// With one size, only the shape of one curve gives evidence.
+constexpr double margin_at_one_size = 20.0;
 
 /// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {

@@ -13,22 +13,25 @@ struct DiagnosedData;
 
 /// Finds systematic errors of the fitted model of `spec`, and their causes.
 ///
-/// 1. The residuals are tested for structure (`StructureStatistics`); the p-value comes from data
-/// sets that are simulated with the fitted model and refitted. 2. Unless the model is adequate,
-/// every mechanism of the catalogue is added and the whole model is refitted with the weights of
-/// the base fit. The p-value of a candidate is the fraction of data sets simulated with the base
-/// model in which the best of all candidates gains as much, to first order. 3. A candidate explains
-/// the data when that p-value is no more than `chance`, it leaves no structure (or little compared
-/// with what it explains), its parameters are plausible, and it predicts held-out blocks better
-/// than the base does. A description never explains. 4. A possible cause that is within `margin` of
-/// the best explanation is its rival, even if its parameters lie somewhat outside the plausible
-/// range, as such limits are not sharp. A single explanation is named; several are not separable.
-/// Without an explanation the search tries pairs, unless even the best single cause gains no more
-/// than chance explains (chance gives more to the best of many pairs). If pairs fail too, the
-/// structure is unexplained. With one diameter no cause is named, because the size dependence,
-/// which distinguishes causes, was not measured. 5. If unstated errors (`unstated_errors`) leave no
-/// structure and fit better than the best single explanation by more than `margin`, or about as
-/// well as the best pair, no cause is named; if they fit about as well, they are `rival_errors`.
+/// 1. The residuals are tested for structure (`StructureStatistics`); the p-value comes from
+///    data sets that are simulated with the fitted model and refitted.
+/// 2. Unless the model is adequate, every mechanism of the catalogue is added and the whole
+///    model is refitted with the weights of the base fit. The p-value of a candidate is the
+///    fraction of data sets simulated with the base model in which the best of all candidates
+///    gains as much, to first order.
+/// 3. A candidate explains the data if that p-value is at most `chance`, it leaves no
+///    structure (or little compared with what it explains), its parameters are plausible, and
+///    it predicts held-out blocks better than the base does. A description never explains.
+/// 4. A possible cause that is within `margin` of the best explanation is its rival, even if
+///    its parameters lie somewhat outside the plausible range, as such limits are not sharp.
+///    A single explanation is named; several are not separable. Without an explanation the
+///    search tries pairs, unless even the best single cause gains no more than chance
+///    explains (chance gives more to the best of many pairs). If pairs fail too, the
+///    structure is unexplained. With one diameter no cause is named, because the size
+///    dependence, which distinguishes causes, was not measured.
+/// 5. If unstated errors (`unstated_errors`) leave no structure and fit better than the best
+///    single explanation by more than `margin`, or about as well as the best pair, no cause
+///    is named; if they fit about as well, they are `rival_errors`.
 ///
 /// If the fit holds uncertain material constants (Materials::propagated), the base model is
 /// refitted with constants that the points move.
@@ -71,8 +74,8 @@ class Calibration {
   std::string digits() const;
 
  private:
-  std::vector<std::unique_ptr<DiagnosedData>>
-      data_;  // all points; then without the outlying ones, if any
+  // All points; then without the outlying ones, if any.
+  std::vector<std::unique_ptr<DiagnosedData>> data_;
 };
 
 }  // namespace recoil

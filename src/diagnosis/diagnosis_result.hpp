@@ -142,8 +142,8 @@ struct Diagnosis {
   FitResult base;
   DiagnosisAnswer answer;
   Structure structure;  ///< structure of the base model's residuals
-  std::vector<OutlyingPoint>
-      outlying;  ///< points that were set aside; the other members are without them
+  /// Points that were set aside; the other members are without them.
+  std::vector<OutlyingPoint> outlying;
   std::optional<AnswerForAll> for_all;  ///< the answer with them; nullopt if there are none
   std::vector<MisfitCell> where;        ///< the misfit map
   std::vector<double> free_form;  ///< free-form discrepancy as residuals [points]; empty: none

@@ -23,8 +23,8 @@ bool series_are_sizes(const Observations& data);
 /// @param noise_scale factor on the standard deviations of the sample
 bool batch_is_size(const Observations& data, const CandidateResult& candidate, double noise_scale);
 
-inline constexpr double allowed_errors =
-    2.0;  ///< allowed distance outside the plausible range [standard errors]
+/// Allowed distance outside the plausible range [standard errors].
+inline constexpr double allowed_errors = 2.0;
 
 /// The parameters of the mechanisms that `candidate` adds, as `refit` has them, and whether they
 /// are possible: within the plausible range of the catalogue, or no more than `errors` standard

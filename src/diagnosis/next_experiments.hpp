@@ -34,10 +34,10 @@ struct NextExperiment {
   double difference = 0.0;
   int events = 0;         ///< number of impacts for expected odds of 99 to 1
   double log_odds = 0.0;  ///< expected ln odds from that many impacts, at least ln 99
-  Condition condition =
-      Condition::ambient_pressure;  ///< for kind `condition`: the changed condition
-  double value = 0.0;               ///< value of the condition, in its unit
-  std::string_view doing;           ///< instruction: "pump the chamber"
+  /// For kind `condition`: the changed condition.
+  Condition condition = Condition::ambient_pressure;
+  double value = 0.0;      ///< value of the condition, in its unit
+  std::string_view doing;  ///< instruction: "pump the chamber"
 };
 
 /// For every two of the first four `rivals`: the impact conditions that distinguish them with the

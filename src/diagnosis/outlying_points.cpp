@@ -15,13 +15,13 @@
 namespace recoil {
 namespace {
 
-constexpr double false_rate =
-    0.05;  // fraction of data sets in which any point is wrongly called outlying
+// Fraction of data sets in which any point is wrongly called outlying.
+constexpr double false_rate = 0.05;
 constexpr double any_discrepancy = 0.3;  // sd of a smooth discrepancy of e^2
-constexpr double steepness =
-    2.0;  // power of V_min / V in the residuals of a wrong capture velocity
-constexpr double any_parameter =
-    1e4;  // prior sd of a parameter's effect, in standard deviations of the residuals
+// Power of V_min / V in the residuals of a wrong capture velocity.
+constexpr double steepness = 2.0;
+// Prior sd of a parameter's effect, in standard deviations of the residuals.
+constexpr double any_parameter = 1e4;
 constexpr double to_sd = 1.4826;   // sd over the median of |z| for a normal z
 constexpr std::size_t fewest = 8;  // fewest points that can show another to be outlying
 

@@ -17,8 +17,8 @@ struct OutlyingPoint {
   double diameter = 0.0;  ///< [m]
   double velocity = 0.0;  ///< [m/s]
   double restitution = 0.0;
-  double residual =
-      0.0;  ///< deviation from the prediction by the other points, in standard deviations
+  /// Deviation from the prediction by the other points, in standard deviations.
+  double residual = 0.0;
 };
 
 /// Finds the points whose deviation from the prediction by the others is significant at 5 % for the

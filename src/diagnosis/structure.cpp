@@ -16,8 +16,8 @@ namespace recoil {
 namespace {
 
 constexpr int highest_degree = 11;  // highest degree of the free form in ln V
-constexpr double negligible =
-    1e-6;  // smallest part of a function, orthogonal to the model, that is tested
+// Smallest part of a function, orthogonal to the model, that is tested.
+constexpr double negligible = 1e-6;
 constexpr double same_diameter = 0.005;  // relative difference of diameters that count as equal
 
 double dot(std::span<const double> a, std::span<const double> b) {

@@ -92,9 +92,9 @@ class StructureStatistics {
   bool stated_ = true;
   bool noise_known_ = true;
   std::vector<double> slopes_;  // d residual / d e^2 [points]
-  std::vector<std::size_t>
-      impact_;               // index of the combination of series, size and velocity [points]
-  SharedSettings settings_;  // whiten functions like the residuals
+  // Index of the combination of series, size and velocity [points].
+  std::vector<std::size_t> impact_;
+  SharedSettings settings_;                         // whiten functions like the residuals
   std::shared_ptr<const Discrepancy> discrepancy_;  // also whitens functions
   std::vector<bool> used_;
   std::size_t used_count_ = 0;

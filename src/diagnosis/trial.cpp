@@ -240,8 +240,8 @@ namespace {
 
 constexpr int tries_alone = 4;
 
-constexpr double least_effect =
-    0.01;  // least effect, in standard deviations of the most affected point
+// Least effect, in standard deviations of the most affected point.
+constexpr double least_effect = 0.01;
 
 /// Can the mechanism change any residual by `least_effect`, with its parameters at their start or
 /// one of them at either end of its allowed range?

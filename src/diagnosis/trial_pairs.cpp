@@ -13,11 +13,12 @@ namespace recoil {
 namespace {
 
 constexpr int tries_in_pairs = 2;
-constexpr double followed_within =
-    30.0;  // a pair is followed within this difference to the best at the first look,
-constexpr double followed_part = 0.2;  // or within this fraction of the gain of the best
-constexpr double carried_part =
-    0.1;  // least part of the misfit that each of a pair must explain if structure is left
+// A pair is followed if its criterion at the first look is within `followed_within` of the best,
+// or within the fraction `followed_part` of the gain of the best.
+constexpr double followed_within = 30.0;
+constexpr double followed_part = 0.2;
+// Least part of the misfit that each of a pair must explain if structure is left.
+constexpr double carried_part = 0.1;
 
 /// Does a free parameter of an added mechanism rest on a bound? Exponents may.
 bool rests_on_the_edge(const CandidateResult& result) {

@@ -52,15 +52,13 @@ struct UnstatedErrors {
 ///   for velocities. The error of a drop height is an error of its setting.
 /// - larger_deviations: all standard deviations are too small by the same factor, sqrt(chi^2 /
 ///   dof); the structure is then tested in residuals in units of their root mean square.
-///
 /// - shared_setting: the points of one setting (a column of the dataset; else equal series,
-/// diameter
-///   and incident velocity) share an error of e of the same size at all settings; the likelihood
-///   determines it from the scatter between settings compared with that within them. Only if
-///   settings have several points.
+///   diameter and incident velocity) share an error of e of the same size at all settings; the
+///   likelihood determines it from the scatter between settings compared with that within them.
+///   Only if settings have several points.
 ///
 /// The remaining structure is judged by the tests of the residuals and by their tails: if only a
-/// few points outlie, the stated errors of the others are right.
+/// few points are outlying, the stated errors of the others are right.
 std::vector<UnstatedErrors> unstated_errors(const SearchBase& base);
 
 /// The height to which the sphere of `point` rebounds in vacuum, e^2 V^2 / 2g [m].

@@ -73,11 +73,11 @@ struct FitResult {
   std::vector<bool> at_bound;                  ///< [slots]
   DescentEnd ending = DescentEnd::minimum;     ///< end of the last descent: minimum, valley or flat
   Strategy strategy = Strategy::trust_region;  ///< strategy of the last descent
-  std::vector<std::size_t>
-      flat;  ///< slots without effect on any point; their values are undetermined
+  /// Slots without effect on any point; their values are undetermined.
+  std::vector<std::size_t> flat;
   std::vector<double> covariance;  ///< [slots x slots]; scaled by noise_scale^2
-  std::vector<double>
-      spread_covariance;  ///< the part of it that the uncertainty of event_spread adds; or empty
+  /// The part of `covariance` that the uncertainty of event_spread adds; or empty.
+  std::vector<double> spread_covariance;
   /// For constants that fits do not move: the change of theta when the constant is one standard
   /// deviation above its stated value [constant][slot]. `covariance` includes their outer products.
   std::vector<std::vector<double>> constant_effects;
@@ -157,8 +157,8 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
 /// A point whose removal makes the model fit the others.
 struct OddPoint {
   std::size_t index = 0;  ///< index of the observation
-  double residual =
-      0.0;            ///< its deviation from the prediction of the others, in standard deviations
+  /// Its deviation from the prediction of the others, in standard deviations.
+  double residual = 0.0;
   FitResult without;  ///< the fit to the others
 };
 

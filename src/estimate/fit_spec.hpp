@@ -32,12 +32,12 @@ std::vector<std::string> fit_keys_of(std::string_view table);
 
 /// How the standard deviation of a measured e depends on the predicted one. All but `stated` use
 /// one number s for all points and n, the number of rebounds that a point averages:
-///   constant sd = s / sqrt(n)
-///   proportional sd = s sqrt(e^2 + 0.1^2) / sqrt(n): relative noise, with a floor so that no
+///   constant       sd = s / sqrt(n)
+///   proportional   sd = s sqrt(e^2 + 0.1^2) / sqrt(n): relative noise, with a floor so that no
 ///                  point close to capture weighs without limit
-///   capture sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
+///   capture        sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
 ///                  to it: for impacts that differ in their energy loss
-///   steep sd = s exp(2 (V* / V)^2) / sqrt(n): sevenfold at capture, 7 % more at 5 V*, and
+///   steep          sd = s exp(2 (V* / V)^2) / sqrt(n): sevenfold at capture, 7 % more at 5 V*, and
 ///                  so over a wider range than `capture`; V* to first order in the damping
 /// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family,
 /// steep an exponential of a variable of the design (both: Carroll & Ruppert 1988, Transformation
@@ -97,8 +97,8 @@ struct ParameterSpec {
   bool free = true;
   bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
   bool initial_stated = false;  ///< false: the materials give f0 or W
-  bool bounds_stated =
-      false;  ///< false: the upper bound of C_H depends on the velocities, see make_model
+  /// False: the upper bound of C_H depends on the velocities, see make_model.
+  bool bounds_stated = false;
   bool mentioned = false;  ///< the file has an entry for the parameter, so no condition of a
                            ///< dataset overrides it
 
@@ -147,8 +147,8 @@ struct FitSpec {
   std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
   bool mixed_sizes = true;  ///< points average over the sizes that their dataset states; false: all
                             ///< spheres of a point have its diameter
-  std::vector<ParameterSpec>
-      parameters;  ///< all of `parameters_with(mechanisms, adhesion)`, in that order
+  /// All of `parameters_with(mechanisms, adhesion)`, in that order.
+  std::vector<ParameterSpec> parameters;
   NoiseSpec noise;
   Location variance_place;  ///< place of the variance function in the file, for messages
   UncertaintySpec uncertainty;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int most_steps = 30;
 constexpr double all_digits = 1e-13;  // relative step below which theta does not change
-constexpr double rounding_of_sum =
-    1e-9;  // relative; residuals may be small differences of large numbers
+// Relative; residuals may be small differences of large numbers.
+constexpr double rounding_of_sum = 1e-9;
 
 /// Gauss-Newton steps in the coordinates of the descent (ln theta for `log_scale`).
 class GaussNewton {

@@ -59,8 +59,8 @@ struct LeastSquaresOptions {
   /// Without `finish`, gauss_newton and box_descent end if the estimated distance to the minimum is
   /// at most this, in standard errors for residuals with a scatter of 1.
   double close_enough = 3e-7;
-  double first_radius =
-      1e4;  ///< first radius of the trust region, in parameters scaled by the Jacobian
+  /// First radius of the trust region, in parameters scaled by the Jacobian.
+  double first_radius = 1e4;
 };
 
 /// How a minimisation ended.

@@ -19,8 +19,8 @@ struct UncertainConstant {
   Constant constant = Constant::density;
   double stated = 0.0;  ///< in its own unit
   double sd = 0.0;      ///< sd of its logarithm, or of the constant itself for Poisson's ratio
-  std::vector<std::size_t>
-      datasets;  ///< datasets that share it: the same body with the same stated value
+  /// Datasets that share it: the same body with the same stated value.
+  std::vector<std::size_t> datasets;
 
   /// (`value` - `stated_value`) in standard deviations.
   double deviation(double value, double stated_value) const;

@@ -32,11 +32,11 @@ void add_constant_effects(const std::vector<std::vector<double>>& effects,
 
 /// The contribution of uncertain material constants to a fit.
 struct ConstantsInFit {
-  double square =
-      0.0;  ///< sum of squares of their deviations from the stated values, in standard deviations
-  double learned =
-      0.0;  ///< number of constants that the points determine: trace of the points' hat matrix
-            ///< minus the number of free parameters, from 0 to the number of constants
+  /// Sum of squares of their deviations from the stated values, in standard deviations.
+  double square = 0.0;
+  /// Number of constants that the points determine: trace of the points' hat matrix minus the
+  /// number of free parameters, from 0 to the number of constants.
+  double learned = 0.0;
 };
 
 /// @param run a fit whose last residuals are those of `count` constants that it moved

@@ -48,8 +48,8 @@ struct ParameterSlot {
   bool derived = false;  ///< its value comes from the materials; if it is not free, it changes with
                          ///< their constants
   std::optional<Condition> stated = {};  ///< the condition that states its value
-  bool adjusted =
-      false;  ///< a material constant that every fit moves within its error (Materials::adjusted)
+  /// A material constant that every fit moves within its error (Materials::adjusted).
+  bool adjusted = false;
 
   /// Is it a material constant with a stated error?
   bool is_constant() const { return parameter->role == ParameterRole::material_constant; }
@@ -70,8 +70,8 @@ struct ImpactModel {
   std::vector<ParameterSlot> slots;
   std::vector<ContactProperties> contacts;      ///< per dataset
   std::vector<std::size_t> slot_C_H, slot_C_A;  ///< per dataset: index into `slots`
-  std::vector<std::size_t>
-      slot_adhesion;  ///< per dataset: slot of f0, or of W under another law than the ring law
+  /// Per dataset: slot of f0, or of W under another law than the ring law.
+  std::vector<std::size_t> slot_adhesion;
 
   std::vector<const Mechanism*> chain;     ///< the mechanisms, in the order in which they act
   std::vector<Surroundings> surroundings;  ///< per dataset

@@ -26,16 +26,16 @@ struct MeasuredPoint {
   double diameter = 0.0;           ///< [m]
   double velocity = 0.0;           ///< [m/s]
   double restitution = 0.0;        ///< mean e of the impacts that rebounded [1]
-  bool censored =
-      false;  ///< no e is known: all spheres were captured, or rebounds were only counted
+  /// No e is known: all spheres were captured, or rebounds were only counted.
+  bool censored = false;
 
   int events = 1;                 ///< number of impacts, captured ones included
   int captured = 0;               ///< number of captured impacts
   bool counted = false;           ///< captures were counted, so `captured = 0` is a measurement
   bool rebound_measured = false;  ///< e is the quotient of two velocities: it shares the error of V
   double velocity_sd = 0.0;       ///< sd of V [m/s]; 0: none
-  double setting_velocity_sd =
-      0.0;                          ///< sd of the error of V that its setting shares [m/s]; 0: none
+  /// sd of the error of V that its setting shares [m/s]; 0: none.
+  double setting_velocity_sd = 0.0;
   double diameter_sd = 0.0;         ///< sd of d [m]; 0: none
   double series_diameter_sd = 0.0;  ///< sd of the error of d that its series shares [m]; 0: none
 
@@ -63,14 +63,14 @@ struct DeviancePeak {
 /// them at the parameters of the round before.
 struct PointWeights {
   double sd = 0.0;  ///< standard deviation of the mean e: stated, or estimated [1]
-  double proximity =
-      0.0;  ///< closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated [1]
+  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated [1].
+  double proximity = 0.0;
   double input_sd = 0.0;    ///< sd of e^2 that the errors of V and d cause [1]
   double input_bias = 0.0;  ///< shift of e^2 by its curvature over these errors [1]
   double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not used
   double shift = 0.0;       ///< mean e^2 of the impacts minus e^2 of the mean impact [1]
-  double mean_sd =
-      0.0;  ///< sd of the mean e including the errors of V and d; used with scatter [1]
+  /// sd of the mean e including the errors of V and d; used with scatter [1].
+  double mean_sd = 0.0;
   double setting_sd = 0.0;    ///< sd of e from the stated error of V that its setting shares [1]
   double size_sd = 0.0;       ///< d e / d d times the sd of d that its series shares [1]
   double setting_load = 0.0;  ///< |dr / de| of the residual r times the sd of the error of e that

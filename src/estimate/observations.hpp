@@ -26,19 +26,19 @@ struct VarianceCandidate {
 struct NoiseModel {
   VarianceFunction variance = VarianceFunction::stated;
   double scale = 0.0;  ///< s of the function, for a single impact [1]; 0 when stated
-  std::vector<VarianceCandidate>
-      candidates;  ///< all functions that were compared, if the function was chosen
+  /// All functions that were compared, if the function was chosen.
+  std::vector<VarianceCandidate> candidates;
   /// Sd of the rounding of e, q / sqrt(12) if all readings are multiples of q = 0.1, 0.01, ...
   /// 1e-6; lower limit of an estimated sd [1]; 0: not rounded
   double rounding_sd = 0.0;
   double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0 if
                               ///< rebounds and captures do not overlap (`among_captures`)
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
-  bool known =
-      true;  ///< false: the noise is not stated and cannot be estimated, because the points do not
-             ///< scatter about the fit; there are then no standard errors and no tests
-  double setting_sd =
-      0.0;  ///< sd of the error of e that the points of one setting share, stated or estimated [1]
+  /// False: the noise is not stated and cannot be estimated, because the points do not scatter
+  /// about the fit; there are then no standard errors and no tests.
+  bool known = true;
+  /// sd of the error of e that the points of one setting share, stated or estimated [1].
+  double setting_sd = 0.0;
 };
 
 /// All points of all datasets of a fit, with their weights.

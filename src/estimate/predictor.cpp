@@ -92,8 +92,8 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     }
   });
 
-  constexpr std::size_t few =
-      8 * points_of_block;  // above this number sorting costs more than the impacts
+  // Above this number sorting costs more than the impacts.
+  constexpr std::size_t few = 8 * points_of_block;
   if (points_.size() <= few) alike_ = first_alike(points_);
 
   std::vector<Acting> acting;

@@ -11,8 +11,8 @@ namespace recoil {
 /// Mean of sqrt(u + z) given u + z > 0, its derivative in u, and the variance; z is standard
 /// normal. This is the restitution of spheres that were not captured, in units of sqrt(scatter),
 /// where u is the predicted e^2 in units of the scatter of e^2 from impact to impact:
-///   G(u) = E[sqrt(u + z) | u + z > 0], G' = E[(u + z)^(3/2) | .] - (u + lambda) G,
-///   Var = u + lambda - G^2, lambda = phi(u) / Phi(u).
+///   G(u) = E[sqrt(u + z) | u + z > 0],  G' = E[(u + z)^(3/2) | .] - (u + lambda) G,
+///   Var = u + lambda - G^2,  lambda = phi(u) / Phi(u).
 /// Relative error below 1e-9 at any u: the trapezoid rule in sqrt(u + z) (the integrand is even and
 /// analytic) for u < -12, interpolation in a table of it up to u = 12, and the asymptotic series
 /// above.

@@ -17,8 +17,8 @@ struct RestitutionMean {
   std::size_t dataset = 0;
   std::size_t series = 0;
   double diameter = 0.0;  ///< [m]
-  std::string setting =
-      {};  ///< name of the setting; empty: the whole series, or a setting without name
+  /// Name of the setting; empty: the whole series, or a setting without name.
+  std::string setting = {};
   std::optional<double> velocity;  ///< mean V of a setting [m/s]; nullopt: the whole series
   double value = 0.0;              ///< [1]
   std::optional<std::array<double, 2>> interval;  ///< nullopt: see `why`

@@ -20,9 +20,9 @@ namespace recoil {
 
 namespace {
 
-constexpr double proportional_floor =
-    0.1;                           // e below which the sd of proportional noise is nearly constant
-constexpr double steepness = 2.0;  // d ln sd / d (V* / V)^2
+// e below which the sd of proportional noise is nearly constant.
+constexpr double proportional_floor = 0.1;
+constexpr double steepness = 2.0;      // d ln sd / d (V* / V)^2
 constexpr double first_spread = 0.05;  // event_spread omega of the first round
 constexpr double near_reach = 0.7;     // largest step in ln omega: a factor of two
 constexpr double least_spread = 2e-3;
@@ -300,8 +300,8 @@ class Renewal {
   Observations& data_;
   bool everything_;
   bool mixed_ = false;  ///< in some range of velocities spheres both rebound and stick
-  std::vector<bool>
-      scatters_;  ///< points that may be close enough to capture for the scatter to matter
+  /// Points that may be close enough to capture for the scatter to matter.
+  std::vector<bool> scatters_;
 };
 
 /// The predicted e^2 at the points, and the predictions at `Renewal::questions`.
@@ -429,8 +429,8 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
   for (const Observation& point : points) {
     if (point.censored) continue;
     if (point.weights.scatter > 0.0)
-      criterion +=
-          point.weights.peak.deviance;  // the residual holds only the deviance above the peak
+      // The residual holds only the deviance above the peak.
+      criterion += point.weights.peak.deviance;
     criterion +=
         2.0 * std::log(point.weights.scatter > 0.0 ? point.weights.mean_sd : point.weights.sd);
   }
@@ -632,8 +632,8 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   double best_criterion = INFINITY;
   std::vector<double> from(start.begin(), start.end());
   std::vector<VarianceCandidate> candidates;
-  const VarianceCandidate* before =
-      nullptr;  // the original under the function of candidates.back()
+  // The original under the function of candidates.back().
+  const VarianceCandidate* before = nullptr;
   for (const VarianceFunction function : functions) {
     Observations own = data;
     own.noise.variance = function;

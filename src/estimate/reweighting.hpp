@@ -20,7 +20,7 @@ bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
 /// The part that the uncertainty of event_spread adds to the covariance (J'J)^-1 of an estimate:
 /// with T = -2 ln likelihood, g = d^2 T / (d theta d ln omega) / 2, h = d^2 T / (d ln omega)^2 / 2
 /// and C = (J'J)^-1,
-///   v b b', b = -C g = d theta / d ln omega, v = 1 / (h - g'C g) the variance of ln omega,
+///   v b b',  b = -C g = d theta / d ln omega,  v = 1 / (h - g'C g) the variance of ln omega,
 /// from the joint information of both, inverted by blocks [p x p]. Empty if event_spread is not
 /// used, or if C is empty. Derivatives are differences over a tenth of ln omega; v is at most 1 (a
 /// factor e).
@@ -43,9 +43,10 @@ inline constexpr double least_noise = 1e-6;
 
 struct ReweightingOptions {
   LeastSquaresOptions minimiser;
-  double parameters =
-      1e-3;             ///< rounds end if no parameter moves by more than this, in standard errors,
-  double scale = 1e-4;  ///< and the estimated scale by less than this, relative
+  /// Rounds end if no parameter moves by more than `parameters` standard errors and the estimated
+  /// scale by less than `scale`, relative.
+  double parameters = 1e-3;
+  double scale = 1e-4;
   /// The data are a replicate of a fit with the candidates in `data.noise`: every variance function
   /// starts from its scale and parameters there, shifted as those of the function before it.
   bool replicate = false;
@@ -67,7 +68,7 @@ struct ReweightingOptions {
 ///   maximum likelihood of the counts and the survivors' means, in the range where spheres rebound
 ///   and stick: an impact at V behaves like the mean impact at V exp(omega z), so its e^2 has the
 ///   mean and variance
-///     e^2 + omega^2 / 2 b, omega^2 a^2 + omega^4 / 2 b^2
+///     e^2 + omega^2 / 2 b,  omega^2 a^2 + omega^4 / 2 b^2
 ///   with a, b the first two derivatives of e^2 in ln V (differences over sqrt(3) omega). The sd of
 ///   a survivors' mean is that of `survivors_sd`;
 /// - setting_sd, the error of e that the points of one setting share, see `renew_settings`.

@@ -49,8 +49,8 @@ class SharedSettings {
     std::vector<std::size_t> points;
     std::vector<double> loads;
     std::vector<double> inner;  ///< M of (I + U U')^(-1/2) = I - U M U' [errors x errors]
-    std::vector<double>
-        whole;  ///< for blocks with bounces: (correlations + U U')^(-1/2) [points x points]
+    /// For blocks with bounces: (correlations + U U')^(-1/2) [points x points].
+    std::vector<double> whole;
   };
   void add_block(const std::vector<Observation>& points,
                  const std::vector<const std::vector<Member>*>& columns);

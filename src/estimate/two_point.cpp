@@ -12,8 +12,8 @@ namespace {
 
 constexpr int most_iterations = 200;
 constexpr double at_rest = 1e-8;  // relative change of both factors
-constexpr double root_tolerance =
-    1e-9;  // relative, of each factor; the error after the last Newton step is far smaller
+// Relative, of each factor; the error after the last Newton step is far smaller.
+constexpr double root_tolerance = 1e-9;
 
 struct Excess {
   double value;  // e^2 of the model minus e^2 of the point

@@ -218,10 +218,10 @@ struct FitFile {
     std::optional<double> diameter_um;
     std::string unit;
     OrReason<double> value;
-    std::optional<double>
-        lower_limit;  ///< largest velocity with captures, if no point has both outcomes [m/s]
-    std::optional<double>
-        upper_limit;  ///< smallest velocity without captures, if no point has both outcomes [m/s]
+    /// Largest velocity with captures, if no point has both outcomes [m/s].
+    std::optional<double> lower_limit;
+    /// Smallest velocity without captures, if no point has both outcomes [m/s].
+    std::optional<double> upper_limit;
     std::optional<Ends> interval, interval_mc_error;
     CaptureIntervals intervals;
     Recommended recommended;

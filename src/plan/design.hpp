@@ -23,7 +23,7 @@ Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<dou
 
 /// The shares of `points` points that minimise the sum of the variances (a linear optimality
 /// criterion; for a single c: c-optimality), by the multiplicative algorithm
-///   w_i <- w_i d_i^(1/2) / sum w_j d_j^(1/2), d_i = |C' M^-1 x_i|^2,
+///   w_i <- w_i d_i^(1/2) / sum w_j d_j^(1/2),  d_i = |C' M^-1 x_i|^2,
 /// which decreases the sum in every step if `known` is 0: Silvey, S. D., Titterington, D. M. &
 /// Torsney, B. (1978), Commun. Stat. A 7, 1379-1389; Yu, Y. (2010), Ann. Stat. 38, 1593-1606. It
 /// ends when no d_i exceeds the weighted average by more than 0.2 %.

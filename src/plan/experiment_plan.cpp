@@ -22,8 +22,8 @@ constexpr int grid_velocities = 48;  // velocities of each diameter
 constexpr int fewest_points = 10;    // least number of points if the wanted error decides
 // The default range of velocities, relative to the smallest and the largest capture velocity.
 constexpr double below_capture = 0.8, above_capture = 30.0;
-constexpr double hopeless_points =
-    1e6;  // a plan is refused if this number of points leaves an error of 100 %
+// A plan is refused if this number of points leaves an error of 100 %.
+constexpr double hopeless_points = 1e6;
 constexpr double least_share = 0.05;  // least share in LearntAt
 // Fraction of the information of evenly spaced points that is added in the plan for a single
 // quantity, because its best experiment can leave other parameters undetermined.

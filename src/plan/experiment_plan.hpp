@@ -23,8 +23,8 @@ struct PlanOptions {
   int events = 20;                ///< impacts averaged in one point
   int impacts = 0;                ///< total number of impacts; 0: as many as the wanted error needs
   double error = 0.1;             ///< wanted relative standard error of every quantity [1]
-  double checks =
-      0.25;  ///< share of the points that are evenly spaced, to reveal a wrong model [1]
+  /// Share of the points that are evenly spaced, to reveal a wrong model [1].
+  double checks = 0.25;
 };
 
 inline constexpr int most_planned_impacts = 10000;  ///< limit if the wanted error decides

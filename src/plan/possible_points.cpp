@@ -17,8 +17,8 @@
 namespace recoil {
 namespace {
 
-constexpr double near_capture =
-    30.0;  // e^2 over its scatter up to which counts matter, see `reweighted_fit`
+// e^2 over its scatter up to which counts matter, see `reweighted_fit`.
+constexpr double near_capture = 30.0;
 constexpr double far_out = 35.0;  // standard deviations beyond which phi is 0
 
 /// phi^2 / (Phi(z) Phi(-z)): the information of one capture or rebound about z.

@@ -31,8 +31,8 @@ struct PointOutlook {
 /// (`weighted_residual`). m is its e^2, continued below zero for a capture; m_V and m_d are d m / d
 /// ln V and d m / d ln d. Let z = m / s, with s = spread |m_V| the scatter of e^2 from impact to
 /// impact and tau its error from the errors of V and d. Near capture (m < 30 s)
-///   I = n_eff phi(z)^2 / (Phi(z) Phi(-z)) / (s^2 + tau^2) from the count of captures
-///     + G'(z)^2 / s / (sd_mean^2 + G'(z)^2 tau^2 / s) from the mean of the rebounds,
+///   I = n_eff phi(z)^2 / (Phi(z) Phi(-z)) / (s^2 + tau^2)        from the count of captures
+///     + G'(z)^2 / s / (sd_mean^2 + G'(z)^2 tau^2 / s)            from the mean of the rebounds,
 /// with G of `root_of_positive_normal`. Elsewhere it is 1 / w^2, w^2 = sd^2 (4 psi^2 + 2 sd^2) +
 /// tau^2, times the information of a normal deviate censored at 0 (Amemiya, T. (1973), Econometrica
 /// 41, 997-1016).

@@ -37,10 +37,10 @@ double dahneke_capture_velocity(double mass, double restitution, double incident
 
 /// The energies of an elastic contact with adhesion, Johnson, Kendall & Roberts (1971), Proc. R.
 /// Soc. A 324, 301-313, without damping. All are multiples of
-///   (w^5 R^4 / E*^2)^(1/3) [J].
+///   (w^5 R^4 / E*^2)^(1/3)  [J].
 ///
 /// Along the equilibrium the load P and the approach delta at contact radius a are
-///   P = 4 E* a^3 / (3 R) - sqrt(8 pi w E*) a^(3/2), delta = a^2 / R - sqrt(2 pi w a / E*),
+///   P = 4 E* a^3 / (3 R) - sqrt(8 pi w E*) a^(3/2),   delta = a^2 / R - sqrt(2 pi w a / E*),
 /// so that with a = alpha (w R^2 / E*)^(1/3) the energy stored against P is
 ///   U(alpha) = (8/15) alpha^5 - (4/3) sqrt(2 pi) alpha^(7/2) + pi alpha^2.
 /// The contact forms at delta = 0 (alpha^3 = 2 pi), is in equilibrium at P = 0 (alpha^3 = 9 pi / 2)
@@ -72,7 +72,7 @@ double thornton_ning_plastic_velocity(const CaptureContact& contact, double yiel
 
 /// The capture velocity of Wall, John, Wang & Goren (1990), Aerosol Sci. Technol. 12, 926-946, as
 /// eq. 4 of Li, Dunn & Brach (1999):
-///   V* = (-2 dE / (m e^2))^(1/2), dE = E_r - E_i, e = (1 - K_1 / K_i)^(1/2) (eq. 3),
+///   V* = (-2 dE / (m e^2))^(1/2),   dE = E_r - E_i,   e = (1 - K_1 / K_i)^(1/2)  (eq. 3),
 /// with K_1 the kinetic energy out of K_i that the impact itself loses. The root is real for dE <
 /// 0: here the energies are those of the bound states, which are negative, so that a bond that is
 /// stronger on separation has dE < 0. (Eq. 1 takes the same energies as positive.)

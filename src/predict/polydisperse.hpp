@@ -64,8 +64,8 @@ struct SizeCurve {
 
 /// The deviation of the points of the dataset from one curve.
 struct CurveMiss {
-  std::optional<double>
-      rmse;  ///< root mean square of e - e_predicted over the points with a prediction [1]
+  /// Root mean square of e - e_predicted over the points with a prediction [1].
+  std::optional<double> rmse;
   std::size_t points = 0;  ///< number of these points
   RECOIL_FIELDS(rmse, points)
 };
@@ -82,8 +82,8 @@ struct PolydispersePrediction {
   std::vector<double> velocity;  ///< V [m/s], ascending
   std::array<std::vector<BandedValue>, 3> average;  ///< mean e by convention [1]
   std::vector<BandedValue> captured;                ///< captured fraction of the spheres [1]
-  std::vector<BandedValue>
-      unseen;  ///< fraction that is captured or too slow to reach the measuring plane [1]
+  /// Fraction that is captured or too slow to reach the measuring plane [1].
+  std::vector<BandedValue> unseen;
   std::vector<SizeCurve> size_curves;
   std::array<CurveMiss, 3> miss;  ///< deviation of the three averages at the points of the dataset
   CurveMiss miss_single;          ///< the same for spheres of diameter d10
@@ -102,9 +102,9 @@ struct PolydisperseOptions {
 
 /// Weighted averages over `sizes` with the parameters of a fit: with weights w_i and e_i = e(d_i,
 /// V) of every bin, 0 for a capture,
-///   captured_as_zero sum w_i e_i / sum w_i,
-///   captured_left_out the same over the bins with e_i > 0,
-///   unseen_left_out the same over the bins with e_i V > sqrt(2 g h),
+///   captured_as_zero   sum w_i e_i / sum w_i,
+///   captured_left_out  the same over the bins with e_i > 0,
+///   unseen_left_out    the same over the bins with e_i V > sqrt(2 g h),
 /// each at every velocity and for every bootstrap replicate (the band: its percentiles). f0 of
 /// every size follows from eq. 12. Mechanisms of the measurement do not act, as they would include
 /// sizes and slow rebounds twice.

@@ -26,8 +26,8 @@ struct SimulatedImpact {
   ImpactGroups groups;
   ImpactScales scales;
   ImpactResult impact;  ///< impact of the base model, with budget and gradient
-  double jumps =
-      0.0;  ///< energy that the jumps into and out of contact lose without damping [m V^2]
+  /// Energy that the jumps into and out of contact lose without damping [m V^2].
+  double jumps = 0.0;
   WholeImpactEnergy whole;  ///< energy budget with mechanisms
   std::vector<ImpactMoment> history;
   std::vector<Validity> validity;

@@ -134,8 +134,8 @@ FitInputs inputs_from_text(const std::string& text, const std::string& file,
 
 /// Many impacts of one model, in columns.
 struct ManyImpacts {
-  std::vector<double>
-      restitution_squared;  ///< [impacts], see ImpactResult; NaN if an impact cannot be solved
+  /// [impacts], see ImpactResult; NaN if an impact cannot be solved.
+  std::vector<double> restitution_squared;
   std::vector<std::uint8_t> captured;  ///< [impacts] 1: the sphere is captured
   /// [column][impacts]: d e^2 / d (each slot of the model, the velocity [s/m], the diameter [1/m]).
   std::vector<std::vector<double>> slopes;

@@ -42,14 +42,14 @@ struct BootstrapResult {
   /// `bootstrap` [1]; nullopt without intervals.
   std::optional<double> relative_error;
   std::vector<std::vector<double>> theta;  ///< usable replicates [count][slots]
-  std::vector<std::vector<double>>
-      std_error;  ///< standard errors of each replicate [count][slots], 0: none
-  std::vector<std::vector<double>>
-      capture_velocity;  ///< V* [m/s] [count][diameters], in the order of the CaptureEstimates
-  std::vector<std::vector<double>>
-      capture_error;  ///< standard error of ln V* [count][diameters], 0: none
-  std::vector<double>
-      capture_reference_error;        ///< standard error of ln V* of the fit itself [diameters]
+  /// Standard errors of each replicate [count][slots], 0: none.
+  std::vector<std::vector<double>> std_error;
+  /// V* [m/s] [count][diameters], in the order of the CaptureEstimates.
+  std::vector<std::vector<double>> capture_velocity;
+  /// Standard error of ln V* [count][diameters], 0: none.
+  std::vector<std::vector<double>> capture_error;
+  /// Standard error of ln V* of the fit itself [diameters].
+  std::vector<double> capture_reference_error;
   int two_point_replicates = 0;       ///< number of first replicates with a two-point calibration
   std::vector<int> two_point_failed;  ///< [datasets] number of these in which it did not converge
   /// [datasets][converged replicates][slots]

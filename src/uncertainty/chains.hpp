@@ -20,7 +20,7 @@ struct ChainCheck {
 
 /// Computes R-hat and effective draws. Every chain is split in halves. With W the mean variance
 /// within the halves, B/n the variance of their means and V = W (n - 1) / n + B/n,
-///   R-hat = sqrt(V / W), effective draws = m n / (1 + 2 sum rho_t),
+///   R-hat = sqrt(V / W),  effective draws = m n / (1 + 2 sum rho_t),
 ///   rho_t = 1 - (W - mean covariance at lag t) / V,
 /// with the sum truncated by Geyer's (1992) initial monotone sequence. Ranks r of S draws become
 /// Phi^-1((r - 3/8) / (S + 1/4)).

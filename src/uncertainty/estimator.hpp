@@ -4,7 +4,7 @@
 /// squares, and the intervals that follow from a fit and its bootstrap replicates. It needs only
 /// residuals and derivatives and is independent of impacts.
 ///
-///   recoil::LeastSquaresProblem problem; // residuals, bounds, scales
+///   recoil::LeastSquaresProblem problem;        // residuals, bounds, scales
 ///   recoil::LeastSquaresResult fit = recoil::minimise(problem, start);
 ///   recoil::Interval interval = recoil::wald_interval(fit.theta[0], error, 0.95, dof, -inf, inf);
 #include "estimate/least_squares.hpp"

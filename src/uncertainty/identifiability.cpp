@@ -41,8 +41,8 @@ double largest_error_factor(int dof) {
 
 /// The standard error of slot j; if it rests on a bound, the one that corresponds to its interval.
 double error_of(const FitResult& fitted, std::size_t j, const Interval& interval) {
-  constexpr double one_sided =
-      1.96;  // width in standard errors of a 95 % interval that begins at the bound
+  // Width in standard errors of a 95 % interval that begins at the bound.
+  constexpr double one_sided = 1.96;
   if (fitted.std_error[j] > 0.0 || !interval.available()) return fitted.std_error[j];
   return (*interval.upper - *interval.lower) / one_sided;
 }
@@ -94,8 +94,8 @@ std::optional<double> too_far_above_capture(const FitResult& fitted,
       }
     }
   }
-  constexpr double close_enough =
-      1.5;  // below this ratio the rise of e distinguishes adhesion from the plateau
+  // Below this ratio the rise of e distinguishes adhesion from the plateau.
+  constexpr double close_enough = 1.5;
   if (!std::isfinite(nearest) || nearest <= close_enough) return std::nullopt;
   return nearest;
 }

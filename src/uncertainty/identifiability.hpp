@@ -47,8 +47,8 @@ struct ParameterIdentifiability {
   double relative_error = 0.0;          ///< standard error over the estimate [1]
   double largest_relative_error = 0.0;  ///< its upper 95 % limit if the noise is estimated [1]
   double loss_scale = 0.0;  ///< the change that would alone account for the loss, see below
-  double noise_factor =
-      1.0;  ///< ratio of its largest to its smallest error under the variance functions [1]
+  /// Ratio of its largest to its smallest error under the variance functions [1].
+  double noise_factor = 1.0;
   bool upper_limit = false;  ///< identifiable, with an interval that begins at zero
 };
 

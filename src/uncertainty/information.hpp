@@ -42,9 +42,9 @@ struct PlannedPoints {
 /// determine well (stiff) or hardly (sloppy).
 struct Information {
   std::vector<InformationDirection> directions;  ///< stiff first
-  std::vector<double>
-      relative_sd;         ///< [slots] with the present points; 0 for slots that are not free
-  double condition = 1.0;  ///< largest over smallest eigenvalue
+  /// [slots] with the present points; 0 for slots that are not free.
+  std::vector<double> relative_sd;
+  double condition = 1.0;            ///< largest over smallest eigenvalue
   std::vector<PlannedPoints> plans;  ///< the most useful first, for the least known parameter
 };
 

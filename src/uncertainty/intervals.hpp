@@ -18,7 +18,7 @@ std::optional<BcaConstants> bca_constants(std::span<const double> replicates, do
                                           std::span<const double> delete_one);
 
 /// The level at which BCa takes the quantile of the replicates instead of p:
-///   Phi( z0 + w / (1 - a w) ), w = z0 + Phi^-1(p).
+///   Phi( z0 + w / (1 - a w) ),  w = z0 + Phi^-1(p).
 /// Nullopt if a w >= 1: the acceleration is too large for this level.
 std::optional<double> bca_level(const BcaConstants& constants, double p);
 
@@ -28,7 +28,7 @@ Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level);
 
 /// Studentised (bootstrap-t) interval (Davison & Hinkley 1997, section 5.2.1):
-///   [estimate - s t*_(1-a), estimate - s t*_(a)], t* = (replicate - estimate) / s*,
+///   [estimate - s t*_(1-a), estimate - s t*_(a)],  t* = (replicate - estimate) / s*,
 /// cut at the bounds.
 /// @param replicate_errors s* of each replicate; replicates with 0 (no standard error) are omitted
 Interval studentized_interval(std::span<const double> replicates,
@@ -49,7 +49,7 @@ struct WaldTerm {
 };
 
 /// The Wald interval averaged over noise models. Its ends solve
-///   sum_k w_k P_k((x - estimate_k) / std_error_k) = (1 -+ level) / 2, sum_k w_k = 1,
+///   sum_k w_k P_k((x - estimate_k) / std_error_k) = (1 -+ level) / 2,  sum_k w_k = 1,
 /// with P_k Student's distribution function (normal for dof 0), so that the tail areas are
 /// averaged, not the ends (Turek & Fletcher 2012, Comput. Stat. Data Anal. 56, 2809-2815). With one
 /// term it equals `wald_interval`.

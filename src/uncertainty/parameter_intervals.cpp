@@ -108,8 +108,8 @@ std::optional<ConditionalFit> conditional_fit(const FitResult& fitted, double le
 
 namespace {
 
-constexpr double clear_difference =
-    0.15;  // smallest difference reported, over the recommended width
+// Smallest difference reported, over the recommended width.
+constexpr double clear_difference = 0.15;
 constexpr double many_at_bound = 0.05;
 constexpr double coupled = 0.5;  // correlation above which another parameter's bound matters
 constexpr double clear_acceleration = 0.05;

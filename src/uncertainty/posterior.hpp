@@ -51,10 +51,10 @@ struct PosteriorMarginal {
 struct LeaveOneOut {
   std::optional<NoLeaveOneOut> missing;
   double elpd = 0.0;  ///< sum over the points
-  double se =
-      0.0;  ///< standard error of elpd: sqrt(n) times the standard deviation over the points
-  double p_loo =
-      0.0;  ///< effective number of parameters: sum of ln mean likelihood of the points minus elpd
+  /// Standard error of elpd: sqrt(n) times the standard deviation over the points.
+  double se = 0.0;
+  /// Effective number of parameters: sum of ln mean likelihood of the points minus elpd.
+  double p_loo = 0.0;
   std::vector<LeftOutPoint> points;
 };
 
@@ -84,8 +84,8 @@ struct PosteriorResult {
   std::vector<std::vector<double>> capture_draws;  ///< V* [m/s] [draws][capture], NaN: none
   std::vector<double> scale;                       ///< scale of the noise [draws]; empty: known
   std::vector<double> log_likelihood;              ///< [draws]
-  std::vector<double>
-      log_prior;  ///< [draws]; contains -ln scale, as the prior of the scale is not normalised
+  /// [draws]; contains -ln scale, as the prior of the scale is not normalised.
+  std::vector<double> log_prior;
   std::vector<std::vector<double>> pointwise;  ///< ln likelihood [points][draws]; empty: missing
   LeaveOneOut left_out;
 

@@ -19,8 +19,8 @@ namespace {
 constexpr int most_strides = 60;
 constexpr int most_bisections = 60;
 constexpr int curve_steps = 14;  // on either side of the estimate
-constexpr double curve_reach =
-    1.4;  // reach of a curve, over the distance from the estimate to the end
+// Reach of a curve, over the distance from the estimate to the end.
+constexpr double curve_reach = 1.4;
 constexpr double end_tolerance = 1e-3;  // relative tolerance of the rise at an interval's end
 
 class Profile {
@@ -52,8 +52,8 @@ class Profile {
 
  private:
   static constexpr int most_rounds = 12;
-  static constexpr double at_rest =
-      5e-3;  // tolerance of the rise: a thousandth of the interval's width
+  // Tolerance of the rise: a thousandth of the interval's width.
+  static constexpr double at_rest = 5e-3;
 
   const FitResult& fitted_;
   Observations data_;  ///< with the spread of the last refit

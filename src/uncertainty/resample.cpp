@@ -207,10 +207,10 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points.clear();
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-      again;  // new number of each (draw, setting)
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-      launches;  // new number of each (draw, launch)
+  // New number of each (draw, setting).
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;
+  // New number of each (draw, launch).
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> launches;
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
       Observation& point = sample.points.emplace_back(plan.fitted->data.points[i]);

@@ -48,8 +48,8 @@ struct ResamplingPlan {
   Scheme scheme = Scheme::parametric;  ///< never automatic
   SchemeBecause because = SchemeBecause::asked_for;
   const FitResult* fitted = nullptr;
-  std::vector<double>
-      residuals;  ///< weighted residuals; residual: the pool; wild: one for each point
+  /// Weighted residuals; residual: the pool; wild: one for each point.
+  std::vector<double> residuals;
   std::vector<std::vector<std::size_t>> clusters;  ///< the points of each series or setting
 
   /// The number of independent units that are drawn: points, or series.

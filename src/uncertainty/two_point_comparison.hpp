@@ -41,8 +41,8 @@ struct ComparisonRow {
   std::vector<double> theta;   ///< [slots]; empty if the method failed
   std::string failure;         ///< reason of a failure
   std::optional<double> rmse;  ///< root mean square of e - e_model at all points of the dataset [1]
-  std::optional<double>
-      held_out_rmse;  ///< the same at the diameters that the calibration did not use [1]
+  /// The same at the diameters that the calibration did not use [1].
+  std::optional<double> held_out_rmse;
   /// [slots], with exact constants and, if it is not fitted, exact f0; empty for two points.
   std::vector<double> standard_errors = {};
 };
@@ -55,8 +55,8 @@ struct TwoPointComparison {
   double rmse = 0.0;                    ///< two-point calibration, all points of the dataset [1]
   std::optional<double> held_out_rmse;  ///< two-point calibration, on the other diameters [1]
   double full_rmse = 0.0;               ///< full fit, all points of the dataset [1]
-  std::optional<double>
-      full_held_out_rmse;  ///< full fit of that diameter alone, on the other diameters [1]
+  /// Full fit of that diameter alone, on the other diameters [1].
+  std::optional<double> full_held_out_rmse;
   std::optional<NothingHeldOut> nothing_held_out;
   std::string refit_failure;        ///< failure of the full fit of that diameter alone
   std::vector<ComparisonRow> rows;  ///< two points, all points, all points with f0 free

@@ -16,8 +16,8 @@ struct PosteriorOptions {
   int threads = 0;  ///< 0: all cores. Results do not depend on it.
   std::size_t chains = 4;
   std::size_t length = 1000;  ///< draws kept per chain
-  int most_steps =
-      64000;  ///< largest number of steps per chain in one round; the sampler then stops
+  /// Largest number of steps per chain in one round; the sampler then stops.
+  int most_steps = 64000;
   double largest_r_hat = 1.01;   ///< largest R-hat of every quantity
   double least_effective = 400;  ///< least effective draws of every quantity, in bulk and tails
 };
