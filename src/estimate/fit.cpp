@@ -331,7 +331,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   return result;
 }
 
-// With more points than `many_points`, the descents from the starts use 250 to 499 of them: a rough
+// With more points than `many_points`, the descents from the starts use 250 to 374 of them: a rough
 // answer is enough to compare starts, and only the last steps need all points.
 constexpr std::size_t many_points = 500;
 constexpr std::size_t searched_of_many = 250;

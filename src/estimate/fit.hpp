@@ -116,7 +116,7 @@ struct FitResult {
 
 /// Fits the free parameters of `model` to all points at once from several starts, then once more
 /// together with the weights that depend on the fit (`reweighted_fit`). With more than 500 points
-/// the descents from the starts use 250 to 499 of them, spread evenly over datasets, diameters and
+/// the descents from the starts use 250 to 374 of them, spread evenly over datasets, diameters and
 /// velocities. The fit to all points continues from each of their minima that these points cannot
 /// distinguish from the best.
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});

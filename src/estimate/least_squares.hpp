@@ -98,8 +98,8 @@ struct LeastSquaresResult {
 
 /// Minimises `problem` from `start` by the strategies of `options`. Parameters that rest on a bound
 /// satisfy the Karush-Kuhn-Tucker conditions there. A descent that ends as flat is repeated from
-/// the start with short steps. A parameter is flat if its value, its distance from the start and
-/// its range, each times 1e8, are too small a change to alter the residuals by their own norm.
+/// the start with short steps. A parameter is flat if a change of 1e8 times its value, its distance
+/// from the start or its range is needed to change the residuals by their own norm.
 LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
                             const LeastSquaresOptions& options = {});
 

@@ -31,8 +31,8 @@ inline constexpr std::array all_conventions = values_of<CaptureConvention>();
 /// A predicted quantity at one velocity, with its pointwise band.
 struct BandedValue {
   std::optional<double> value;  ///< nullopt if no sphere contributes to the average
-  std::optional<double> lower,
-      upper;  ///< nullopt without a bootstrap, or if fewer than 90 % of the replicates have a value
+  /// Nullopt without a bootstrap, or if fewer than 90 % of the replicates have a value.
+  std::optional<double> lower, upper;
 };
 
 /// The value of the fit with the percentiles of the replicates; NaN: no value.

@@ -13,7 +13,7 @@ namespace recoil {
 enum class IntervalKind {
   wald,         ///< estimate and standard error
   profile,      ///< profile likelihood
-  percentile,   ///< of the bootstrap
+  percentile,   ///< bootstrap percentiles
   bca,          ///< bootstrap percentiles, corrected for bias and acceleration
   studentized,  ///< bootstrap-t
 };
@@ -109,7 +109,7 @@ struct Interval {
   std::optional<double> lower;
   std::optional<double> upper;
   std::optional<NoInterval> missing;  ///< reason for a missing interval
-  std::optional<ProfileShape> shape;  ///< of a profile
+  std::optional<ProfileShape> shape;  ///< shape of a profile interval
   std::optional<IntervalNote> note;
   /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
   /// other seeds. Nullopt if nothing is random.

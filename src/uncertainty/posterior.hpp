@@ -39,8 +39,8 @@ struct NamesOf<NoLeaveOneOut> {
 
 /// One quantity under the posterior.
 struct PosteriorMarginal {
-  Interval
-      interval;  ///< equal tails; missing for fixed parameters and if the chains have not converged
+  /// Equal tails; missing for fixed parameters and if the chains have not converged.
+  Interval interval;
   double mean = 0.0;
   double sd = 0.0;
   ChainCheck check;
