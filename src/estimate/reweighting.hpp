@@ -12,7 +12,7 @@ namespace recoil {
 
 /// Recomputes only the scatter from impact to impact: event_spread by maximum likelihood at
 /// `theta`, and the weights that depend on it. Standard deviations and effective variances do not
-/// change. Does nothing if rebounds and captures do not overlap.
+/// change. Does nothing if event_spread is 0.
 /// @return false if an impact cannot be solved
 bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
                         Observations& data);

@@ -68,7 +68,9 @@ struct Identifiability {
   /// The smallest ratio of impact velocity to capture velocity [1], if it is too large to determine
   /// the adhesion.
   std::optional<double> slowest;
-  bool more_points = false;  ///< would more points determine the parameters?
+  /// More points would help: the impacts are too far above capture, or a parameter is not well
+  /// determined.
+  bool more_points = false;
 
   bool assessed() const { return !parameter.empty(); }
 };
