@@ -50,11 +50,12 @@ void recommend(IntervalSet& set, bool sd_stated);
 
 /// The differences of the intervals of one free parameter from the recommended one, and those of
 /// the following causes that are present:
-///   - bound: the estimate, or more than a twentieth of the replicates, rest on a bound, of this
-///   parameter or of one with a correlation above 0.5;
-///   - ridge: a correlation beyond 0.97 with another free parameter;
-///   - skew: |acceleration| > 0.05, |z0| > 0.15, or arms of the profile that differ by 25 %;
-///   - few points: Student's quantile exceeds the normal one by 10 %.
+/// - bound: the estimate, or more than 5 % of the replicates, rest on a bound, of this parameter or
+///   of one with a correlation above 0.5;
+/// - ridge: a correlation above 0.97 with another free parameter;
+/// - skew: |acceleration| > 0.05, |z0| > 0.15, or arms of the profile that differ by 25 %;
+/// - few points: Student's quantile exceeds the normal one by 10 %.
+///
 /// Nullopt if no end differs by more than 15 % of the recommended width beyond its Monte-Carlo
 /// error.
 /// @param sets intervals of all slots, complete except for `disagreement`
