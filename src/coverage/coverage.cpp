@@ -43,7 +43,7 @@ std::vector<std::string> cell_names() {
   return names;
 }
 
-/// The distance from the truth that the estimates of 68.27 % of the usable trials keep.
+/// The 68.27 % quantile of the deviations of the estimates from the truth over the usable trials.
 template <class RowOf>
 double actual_error(const std::vector<CoverageTrial>& trials, const RowOf& row_of) {
   constexpr double one_sigma = 0.6827;
@@ -55,7 +55,7 @@ double actual_error(const std::vector<CoverageTrial>& trials, const RowOf& row_o
   return deviations.empty() ? 0.0 : sorted_quantile(deviations, one_sigma);
 }
 
-/// Counts over the usable trials; `row_of` looks into one of them.
+/// Counts over the usable trials; `row_of` selects the row of a trial.
 template <class RowOf>
 std::vector<CoverageCell> count(const std::vector<CoverageTrial>& trials,
                                 const std::vector<std::string>& names, const RowOf& row_of) {
@@ -136,7 +136,7 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
       intervals.push_back(&capture[kind]);
     }
     intervals.push_back(posterior_of(posterior.capture, k));
-    // V* has no verdict of its own but what stands beside its interval.
+    // The verdict on V* is whether its interval has a caution.
     const double velocity = at.capture[k].velocity;
     trial.capture.push_back(trial_row(
         !capture.interval.note, std::abs(capture.value / velocity - 1.0), velocity, intervals));
@@ -217,7 +217,7 @@ int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replic
   if (replicates == 0 || fitted.noise_verdict == NoiseVerdict::exceeded) return 0;
   constexpr int usual = 200;
   constexpr double most_seconds = 10.0;
-  // Of one core, per point of a data set; measured, see docs/speed.md.
+  // Seconds on one core per point of a data set; measured, see docs/speed.md.
   const bool mixtures = !fitted.model.chain.empty() || averages_over_sizes(fitted.model);
   double seconds = fitted.data.weights_depend_on_fit() ? 2.5e-3 : 5e-4;
   if (fitted.data.noise.event_spread > 0.0) seconds = 5e-3;

@@ -18,12 +18,13 @@
 
 namespace recoil {
 
-/// How often one kind of interval of one parameter contained the truth.
+/// The coverage of one kind of interval of one parameter.
 struct CoverageCell {
-  std::string interval;          ///< "wald", "profile", ..., "recommended"
-  int offered = 0;               ///< data sets in which there was such an interval
-  int held = 0;                  ///< of those, how many contained the truth
-  int offered_identifiable = 0;  ///< the same where the verdict called it identifiable
+  std::string interval;  ///< "wald", "profile", ..., "recommended"
+  int offered = 0;       ///< number of data sets with such an interval
+  int held = 0;          ///< number of these in which it contained the truth
+  /// The same for data sets in which the parameter was called identifiable.
+  int offered_identifiable = 0;
   int held_identifiable = 0;
   double median_width = 0.0;  ///< [parameter's unit]
   RECOIL_FIELDS(interval, offered, held, offered_identifiable, held_identifiable, median_width)
@@ -33,15 +34,15 @@ struct CoverageRow {
   std::string parameter;  ///< slot label, or "V*(d)" of a capture velocity
   std::string unit;
   double truth = 0.0;
-  int identifiable = 0;  ///< data sets in which the verdict called the parameter identifiable
-  /// Of the estimate over its scale, as the verdict on it counts it: the distance from the truth
-  /// that 68.27 % of the data sets keep [1].
+  int identifiable = 0;  ///< number of data sets in which the parameter was called identifiable
+  /// The 68.27 % quantile of the deviation of the estimate from the truth, over the scale that the
+  /// verdict uses [1].
   double actual_error = 0.0;
   std::vector<CoverageCell> cells;
   RECOIL_FIELDS(parameter, unit, truth, identifiable, actual_error, cells)
 };
 
-/// Where the true parameters, and with them the simulated data, come from.
+/// The origin of the true parameters and of the simulated data.
 enum class TruthOrigin {
   recipe,   ///< the recipe of a reconstruction: its parameters, simulator and noise
   estimate  ///< the fit's own estimate, simulated independently of the fitter
@@ -53,8 +54,8 @@ struct NamesOf<TruthOrigin> {
 
 struct CoverageResult {
   int datasets = 0;
-  int failed = 0;         ///< data sets whose fit gave no answer
-  int refits_failed = 0;  ///< bootstrap refits that failed, over all data sets
+  int failed = 0;         ///< number of data sets whose fit failed
+  int refits_failed = 0;  ///< number of failed bootstrap refits over all data sets
   TruthOrigin truth_origin = TruthOrigin::estimate;
   std::vector<CoverageRow> rows;
   RECOIL_FIELDS(datasets, failed, refits_failed, truth_origin, rows)
@@ -65,7 +66,8 @@ struct CoverageOptions {
   UncertaintyOptions uncertainty;
 };
 
-/// What the study is about: true parameters, true capture velocities and a source of data sets.
+/// The truth of a coverage study: true parameters, true capture velocities and a simulator of data
+/// sets.
 struct CoverageTruth {
   struct Capture {
     double diameter = 0.0;  ///< [m]
@@ -76,16 +78,16 @@ struct CoverageTruth {
     std::vector<Capture> capture;  ///< in the order of `capture_estimates`
   };
   TruthOrigin origin = TruthOrigin::estimate;
-  std::vector<double> theta;     ///< [slots]; the constants of the materials as stated
+  std::vector<double> theta;     ///< [slots]; material constants at their stated values
   std::vector<Capture> capture;  ///< in the order of `capture_estimates`
-  /// Where constants of the materials are uncertain every simulation has a truth of its own, drawn
-  /// from their errors: that of simulation number `index`. Empty: all have the one above.
+  /// The truth of simulation number `index`, with material constants drawn from their errors, if
+  /// constants are uncertain. Empty: all simulations have the truth above.
   std::function<At(std::uint64_t index)> at;
-  /// The data sets of simulation number `index`; called from any thread.
+  /// The data sets of simulation number `index`. Thread-safe.
   std::function<std::vector<Dataset>(std::uint64_t index)> simulate;
 };
 
-/// What one simulated data set says about the intervals.
+/// The intervals of one simulated data set, compared with the truth.
 struct CoverageTrial {
   /// One kind of interval of one parameter.
   struct Cell {
@@ -95,29 +97,29 @@ struct CoverageTrial {
   };
   struct Row {
     bool identifiable = false;
-    double deviation = 0.0;                  ///< of the estimate from the truth over its scale [1]
-    std::vector<std::optional<Cell>> cells;  ///< [kinds]; none: no such interval
+    double deviation = 0.0;  ///< deviation of the estimate from the truth over its scale [1]
+    std::vector<std::optional<Cell>> cells;  ///< [kinds]; nullopt: no such interval
     RECOIL_FIELDS(identifiable, deviation, cells)
   };
-  bool usable = false;  ///< else its fit gave no answer, or the scheme cannot draw from its points,
-                        ///< and the rest is empty
+  bool usable = false;  ///< false: its fit failed, or the scheme cannot be used on its points; the
+                        ///< other members are then empty
   int refits_failed = 0;
-  std::vector<Row> parameters;  ///< those that are free
+  std::vector<Row> parameters;  ///< the free parameters
   std::vector<Row> capture;     ///< in the order of `capture_estimates`
   RECOIL_FIELDS(usable, refits_failed, parameters, capture)
 };
 
-/// Simulation number `index`, fitted as a user would: a pure function of it.
+/// Simulates and fits data set number `index` as a user would; a pure function of `index`.
 CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth,
                                  const CoverageOptions& options, std::uint64_t index);
 
-/// What comes of `options.datasets` trials, all of which are there.
+/// The result of `options.datasets` finished trials.
 CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
                               const CoverageOptions& options,
                               const std::vector<CoverageTrial>& trials);
 
-/// What the trials begin with, to the last digit: parts with other digits here are no parts of one
-/// study.
+/// The numbers on which the trials depend, with all digits: parts of a study can be merged only if
+/// these agree.
 std::string digits_of(const CoverageTruth& truth);
 
 /// Fits every simulated data set as a user would and counts how often each interval of each free
@@ -125,26 +127,27 @@ std::string digits_of(const CoverageTruth& truth);
 CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
                                 const CoverageOptions& options);
 
-/// How often the interval of one quantity contains the truth in data sets like that of the fit.
+/// The coverage of the interval of one quantity in simulated data sets like that of the fit.
 struct OwnCoverage {
   std::string quantity;  ///< slot label, or "V*(d)" of a capture velocity
   std::string method;    ///< the kind of interval
-  int datasets = 0;      ///< simulated ones that have such an interval
-  int held = 0;          ///< of those, how many intervals contain the truth
+  int datasets = 0;      ///< number of simulated data sets with such an interval
+  int held = 0;          ///< number of these intervals that contain the truth
 
   double share() const { return static_cast<double>(held) / datasets; }
 };
 
-/// How many data sets `own_design_coverage` simulates: those that the fit file asks for; by default
-/// 200 where `replicates` are asked for, the model is not rejected by the points, and the cost by
-/// the number of points and of fits that each data set takes is less than 10 s of one core. No
-/// clock decides.
+/// The number of data sets of `own_design_coverage`: that of the fit file; by default 200 if
+/// `replicates` > 0, if the points do not reject the model and if the estimated cost is below 10 s
+/// on one core. The estimate uses the number of points and the kind of fit, no clock. 0 if the
+/// noise is unknown.
 int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates);
 
 /// Simulates the estimate `datasets` times by `coverage_truth`, with the fit's own points, noise
-/// and captures, and counts the intervals that are quoted. Where that is one of the bootstrap the
-/// interval without replicates stands for it: profile, or Wald without one; delta of V*.
-/// @param sets [slots], and `captures`: of the fit
+/// and captures, and counts the quoted intervals that contain the truth. A quoted bootstrap
+/// interval is replaced by one without replicates: profile, or else Wald; delta for V*.
+/// @param sets intervals of the fit [slots]
+/// @param captures capture velocities of the fit
 std::vector<OwnCoverage> own_design_coverage(const FitSpec& spec, const FitResult& fitted,
                                              const std::vector<Dataset>& data,
                                              const std::vector<IntervalSet>& sets,

@@ -20,20 +20,21 @@ namespace {
 
 /// A point of the design, to be simulated at the estimate.
 struct DesignPoint {
-  double restitution = 0.0;                ///< of the typical impact [1]
-  double sd = 0.0;                         ///< that the point states or the fit found [1]
-  double own_sd = 0.0;                     ///< of that, what the differing impacts do not make [1]
-  std::shared_ptr<const TrueCurve> curve;  ///< where impacts differ and captures were counted
-  std::shared_ptr<const TrueMixture> mixture;  ///< where the point averages over sizes
+  double restitution = 0.0;  ///< e of the typical impact [1]
+  double sd = 0.0;           ///< sd of the mean e, stated or estimated [1]
+  double own_sd = 0.0;       ///< the part of sd that is not due to differences between impacts [1]
+  std::shared_ptr<const TrueCurve> curve;      ///< set if impacts differ and captures were counted
+  std::shared_ptr<const TrueMixture> mixture;  ///< set if the point averages over sizes
 };
 
-/// Impacts that differ by the capture velocity: V / V* is what counts.
+/// The velocity of one impact among impacts that differ in their capture velocity: only V / V*
+/// matters.
 double differing_velocity(double velocity, double spread, RandomStream& random) {
   return velocity * std::exp(spread * random.normal());
 }
 
-/// Variance of the mean that differing impacts make, on average over many such points.
-/// @param restitution of one impact
+/// The variance of the mean e from differences between impacts, averaged over many such points.
+/// @param restitution draws e of one impact
 double mean_variance(int events, const std::function<double()>& restitution) {
   constexpr int points = 400;
   double sum = 0.0;
@@ -91,8 +92,9 @@ std::vector<DesignPoint> design_points(const FitResult& fitted,
   return design;
 }
 
-/// The point as an experiment at the truth would find it another time.
-/// @param other_truth whether spheres may be captured here that were not, and the other way round
+/// Simulates a repeated measurement of the point at the truth.
+/// @param other_truth true: the truth differs from the estimate, so that captured points may
+///   rebound and the reverse
 void simulate_point(const DesignPoint& design, double spread, bool other_truth, bool sd_stated,
                     RandomStream& random, ImpactPoint& point) {
   const double noise = random.normal();

@@ -8,42 +8,41 @@
 
 namespace recoil {
 
-/// The spheres of a coverage study: what they do under parameters theta [slots].
+/// The true impacts of a coverage study, as functions of the parameters theta [slots].
 struct TrueImpacts {
   using Theta = std::span<const double>;
-  /// Noiseless e [1] of one sphere; 0 when captured.
+  /// Noiseless e [1] of one sphere; 0 if captured.
   std::function<double(Theta theta, const PointConditions& sphere)> restitution;
   /// V* [m/s] of spheres of `diameter` [m].
   std::function<double(Theta theta, std::size_t dataset, double diameter)> capture_velocity;
 };
 
-/// A sphere that `model` simulates itself: the study then asks whether intervals hold where the
-/// model is right. @throws ComputationError where the model has no answer
+/// Impacts simulated by `model` itself: the study then tests the intervals for a correct model.
+/// @throws ComputationError if an impact cannot be solved
 TrueImpacts impacts_of(const ImpactModel& model);
 
 using MakeImpacts = std::function<TrueImpacts(const ImpactModel& model)>;
 
-/// The truth of a coverage study of `spec`: the fit's own estimate. The points are simulated there
-/// with the noise that the points state and an error for every setting, where settings share one.
-/// Where captures were counted, every impact is simulated, at a velocity that differs from the
-/// stated one as much as the estimated spread says (log-normal), and counted again. Where points
-/// average over sizes, every impact is that of a sphere of its own size. Where constants of the
-/// materials are uncertain, every simulation draws its own.
-/// @throws ComputationError when that fit has no usable answer.
+/// The truth of a coverage study of `spec`: the fit's own estimate. The points are simulated with
+/// the stated or estimated noise, and with an error of every setting if settings share one. If
+/// captures were counted, every impact is simulated, at a velocity that differs from the stated one
+/// by the estimated spread (log-normal), and counted. If points average over sizes, every impact
+/// has a sphere of its own size. If material constants are uncertain, every simulation draws its
+/// own.
+/// @throws ComputationError if that fit is not usable
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed, const MakeImpacts& make_impacts = impacts_of);
 
-/// The same of a fit that is known.
+/// The same for an existing fit.
 CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>& datasets,
                              std::uint64_t seed, const MakeImpacts& make_impacts = impacts_of);
 
-/// V* of every size of every dataset under theta, in the order of UncertaintyResult::capture.
+/// V* [m/s] of every size of every dataset at theta, in the order of UncertaintyResult::capture.
 std::vector<CoverageTruth::Capture> true_captures(const TrueImpacts& impacts,
                                                   std::span<const double> theta,
                                                   const std::vector<Dataset>& datasets);
 
-/// theta with the constants of the materials drawn from their errors about what is stated: that of
-/// simulation number `index`.
+/// theta of simulation number `index`: the material constants are drawn about their stated values.
 std::vector<double> with_drawn_constants(const ImpactModel& model, std::vector<double> theta,
                                          std::uint64_t seed, std::uint64_t index);
 

@@ -16,8 +16,8 @@
 namespace recoil {
 namespace {
 
-/// How candidates are fitted: hundreds of descents, of which only the criterion has to be known, to
-/// a tenth. (A tolerance of the parameters would compare steps of very different units.)
+/// The options for fits of candidates: hundreds of descents, of which only the criterion is needed,
+/// to 0.1. (A tolerance of the parameters would compare steps of very different units.)
 LeastSquaresOptions descent() {
   LeastSquaresOptions options;
   options.max_iterations = 100;
@@ -30,7 +30,7 @@ LeastSquaresOptions descent() {
   return options;
 }
 
-/// Where that one does not end: by Ceres, along each step as far as it leads down.
+/// The options if `descent` does not converge: the trust region of Ceres.
 LeastSquaresOptions careful_descent() {
   LeastSquaresOptions options = descent();
   options.strategies = {Strategy::trust_region};
@@ -38,7 +38,7 @@ LeastSquaresOptions careful_descent() {
   return options;
 }
 
-/// `near` and what differs from it by an advised start of one parameter of an added mechanism.
+/// `near`, and copies of it with one parameter of an added mechanism at a start of the catalogue.
 std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
                                                 const std::vector<double>& near) {
   std::vector<std::vector<double>> starts = {near};
@@ -56,7 +56,7 @@ std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
   return starts;
 }
 
-/// `near` with the damping of the base model taken down: another loss may stand for all of it.
+/// `near` with a tenth of the damping of the base model: another loss may replace it.
 std::vector<double> hardly_damped(const Candidate& candidate, std::vector<double> near) {
   for (std::size_t j = 0; j < near.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
@@ -86,16 +86,18 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
   return best;
 }
 
-/// Narrows the bounds of a mechanism's parameter to what it can be and a fifth of that width beyond
-/// (of its logarithm where it has one): an estimate scatters about a truth at the edge.
+/// Narrows the bounds of a mechanism's parameter to its allowed range plus 20 % of its width on
+/// either side (in the logarithm for `log_scale`), as an estimate scatters about a true value at
+/// the limit.
 void keep_possible(ParameterSpec& spec, const AllowedValues& allowed) {
   const Parameter& parameter = *spec.parameter;
   const double upper = allowed.upper;
-  // The lower limit of what vanishes below it is no bound: the way to nothing stays open.
+  // If the lower limit is a limit on a quantity, and the null value lies below it, the null value
+  // remains reachable.
   const bool open = allowed.lower_by_limit && parameter.null_value <= allowed.lower;
   const double lower =
       open ? std::max(parameter.plausible.lower, parameter.null_value) : allowed.lower;
-  if (!(upper > lower)) return;  // nothing is possible, and will be said to be so
+  if (!(upper > lower)) return;  // no value is allowed; the judgement reports it
   if (parameter.log_scale) {
     const double beyond = std::pow(upper / lower, 0.2);
     spec.lower = std::max(spec.lower, lower / beyond);
@@ -108,9 +110,8 @@ void keep_possible(ParameterSpec& spec, const AllowedValues& allowed) {
   spec.initial = std::clamp(spec.initial, spec.lower, spec.upper);
 }
 
-/// Relative scatter of single impacts among the slowest rebounds [1], as their points state it,
-/// sd sqrt(n) / e: the root mean square of the slowest twentieth, of three at least. Empty where
-/// less is stated.
+/// Relative scatter of single impacts among the slowest rebounds [1], from the stated sd sqrt(n) /
+/// e: the root mean square over the slowest 5 %, at least three. Nullopt if fewer points state it.
 std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datasets) {
   constexpr std::size_t fewest = 3;
   std::vector<std::pair<double, double>> stated;  // rebound velocity, square of the scatter
@@ -130,7 +131,8 @@ std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datas
   return std::sqrt(sum / static_cast<double>(stated.size()));
 }
 
-/// Which rebounds are too slow to be seen depends on how they scatter, and the points say so.
+/// Sets the start to the stated scatter of slow rebounds, which decides the rebounds that are too
+/// slow to be detected.
 void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& spec) {
   const std::optional<double> stated = scatter_of_slow_rebounds(datasets);
   if (stated) spec.initial = std::clamp(*stated, spec.lower, spec.upper);
@@ -169,7 +171,7 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
     const auto& own = spec.mechanisms;
     if (!mechanism.works_with(spec.adhesion)) continue;
     if (std::ranges::find(own, mechanism.info.id) != own.end()) continue;
-    // Stated sizes leave such a mechanism nothing to explain.
+    // If the sizes are stated, a mechanism for mixed sizes has nothing to explain.
     if (std::ranges::none_of(model.surroundings, [&](const Surroundings& at) {
           return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
         })) {
@@ -275,7 +277,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 Refit refit_candidate(const Candidate& candidate, const Observations& data,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy) {
-  // Models are compared under the errors that are stated, of the points and of the constants.
+  // Models are compared under the stated errors of the points and of the constants.
   Observations stated;
   if (data.constants_weight != 1.0) {
     stated = data;
@@ -313,7 +315,8 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
     for (std::size_t j = 0; j < best.theta.size(); ++j) {
       best.moving[j] = candidate.model.slots[j].free && !run.at_bound[j];
     }
-    // A constant of the materials moves where the points say more of it than what is stated.
+    // A material constant counts as moving if the points determine it better than its stated value
+    // does.
     const std::size_t p = best.theta.size();
     for (std::size_t k = 0; k < candidate.model.constants.size(); ++k) {
       const std::size_t j = candidate.model.first_constant() + k;

@@ -11,53 +11,55 @@
 
 namespace recoil {
 
-/// Why a parameter cannot have its value.
+/// The reason why the value of a parameter is implausible.
 enum class Implausible {
-  outside_range,  ///< of what the catalogue gives for it
-  beyond_limit    ///< of a dimensionless quantity that it stands for
+  outside_range,  ///< outside the range of the catalogue
+  beyond_limit    ///< beyond the limit of a dimensionless quantity that depends on it
 };
 template <>
 struct NamesOf<Implausible> {
   static constexpr std::array<std::string_view, 2> names = {"outside_range", "beyond_limit"};
 };
 
-/// A parameter of an added mechanism as it was fitted.
+/// The estimate of a parameter of an added mechanism.
 struct FoundParameter {
   std::string label;
   std::string unit;
   double value = 0.0;
-  /// Standard error, the errors of the laws included; 0 where it is fixed or rests on a bound.
+  /// Standard error, including the errors of the laws; 0 if it is fixed or at a bound.
   double sd = 0.0;
   double null_value = 0.0;
-  std::optional<Condition> stated_by;      ///< a condition of the data says its value
-  std::optional<Implausible> implausible;  ///< none where its value is possible
-  /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
-  /// plausible are not sharp.
+  std::optional<Condition> stated_by;      ///< a condition of the data states its value
+  std::optional<Implausible> implausible;  ///< nullopt if its value is plausible
+  /// Plausible, or outside by at most half the range (a factor of two for `log_scale`): limits of
+  /// plausibility are not sharp.
   bool near_plausible = true;
-  double lower = 0.0, upper = 0.0;        ///< the range that it lies outside of
-  std::string_view range_why = {};        ///< why that is the range
-  const PlausibleLimit* limit = nullptr;  ///< the limit that it lies beyond
-  double quantity = 0.0;                  ///< what is limited, at this value [1]
+  double lower = 0.0, upper = 0.0;        ///< the range outside of which it lies
+  std::string_view range_why = {};        ///< the reason for that range
+  const PlausibleLimit* limit = nullptr;  ///< the limit that it exceeds
+  double quantity = 0.0;                  ///< the limited quantity at this value [1]
 
   bool plausible() const { return !implausible; }
 };
 
-inline constexpr double tolerated_level = 0.01;  ///< structure below this p-value is left behind
+inline constexpr double tolerated_level = 0.01;  ///< a smaller p-value means that structure is left
 
-/// Why a candidate is not taken for a cause.
+/// The reason why a candidate is not accepted as a cause.
 enum class SetAside {
-  description,            ///< it explains nothing
-  gains_too_little,       ///< less than its parameters cost
-  chance,                 ///< gives the best of all candidates as much, too often
-  not_possible,           ///< a parameter is implausible
-  batch_is_size,          ///< every series has its own diameter, and offsets run smoothly with it
-  within_a_step,          ///< an error of a height no larger than rounding may make it
-  leaves_structure,       ///< behind
-  predicts_no_better,     ///< sizes or targets that were held out
-  one_would_do,           ///< of the two of a pair
-  one_hardly_takes_part,  ///< of the two of a pair, and structure is left behind
-  at_the_edge,            ///< a parameter rests on the edge of what is possible
-  far_behind              ///< the best at a first look: a pair that was not followed any further
+  description,       ///< a description explains nothing
+  gains_too_little,  ///< the criterion does not decrease: the gain is less than the cost of the
+                     ///< parameters
+  chance,            ///< chance gives the best of all candidates as much too often
+  not_possible,      ///< a parameter is implausible
+  batch_is_size,  ///< every series has its own diameter, and the offsets are a smooth function of
+                  ///< it
+  within_a_step,  ///< the error of a height may be due to rounding
+  leaves_structure,       ///< the residuals still show structure
+  predicts_no_better,     ///< it does not predict held-out sizes or targets better than the base
+  one_would_do,           ///< one mechanism of a pair would suffice
+  one_hardly_takes_part,  ///< one mechanism of a pair contributes little, and structure is left
+  at_the_edge,            ///< a parameter rests on a bound of its allowed range
+  far_behind  ///< a pair that was too far behind the best at a first look and was not followed
 };
 template <>
 struct NamesOf<SetAside> {
@@ -67,24 +69,25 @@ struct NamesOf<SetAside> {
       "one_would_do",  "one_hardly_takes_part", "at_the_edge",      "far_behind"};
 };
 
-/// One mechanism, or several at once, tried as an explanation.
+/// One mechanism, or two at once, tested as an explanation.
 struct CandidateResult {
   Candidate candidate;
   Refit refit;
   MechanismKind kind = MechanismKind::physics;
   std::vector<FoundParameter> parameters;
-  double delta_aicc = 0.0;        ///< criterion less that of the base model: negative is better
-  std::optional<double> p_value;  ///< see `diagnose`; none for several at once
-  double remaining_p = 0.0;       ///< of the structure that it leaves, `quick_structure`
-  /// Of the base model's misfit beyond the noise, what is left [1]; 1 where no errors are stated.
+  double delta_aicc = 0.0;        ///< criterion minus that of the base model: negative is better
+  std::optional<double> p_value;  ///< see `diagnose`; nullopt for a pair
+  double remaining_p = 0.0;       ///< p-value of the structure that it leaves, `quick_structure`
+  /// The remaining part of the base model's misfit beyond the noise [1]; 1 if no errors are stated.
   double remaining_part = 1.0;
-  std::optional<HeldOutGain> gain;  ///< where worth computing
-  /// By how much the criterion rises where the parameters are kept within what is possible; asked
-  /// where the best value lies outside by less than its error, and else 0. A standard error says
-  /// little of a limit where two parameters trade for each other.
+  std::optional<HeldOutGain> gain;  ///< if it was computed
+  /// The increase of the criterion if the parameters are kept within their allowed ranges; computed
+  /// if a best value lies outside by less than its error, else 0. (If two parameters are strongly
+  /// correlated, a standard error alone does not show whether the limit matters.)
   double cost_of_possible = 0.0;
-  bool plausible = true;       ///< all of its parameters are
-  bool only_by_error = false;  ///< one lies outside of what is possible, by less than its error
+  bool plausible = true;  ///< all of its parameters are plausible
+  /// A parameter lies outside of its allowed range by less than its error.
+  bool only_by_error = false;
   bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
 

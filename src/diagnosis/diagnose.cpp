@@ -27,7 +27,8 @@
 namespace recoil {
 namespace {
 
-constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
+// With one size, only the shape of one curve gives evidence.
+constexpr double margin_at_one_size = 20.0;
 
 /// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {
@@ -35,8 +36,8 @@ double quick_p_value(const SearchBase& base, const Refit& refit) {
       .p_value;
 }
 
-/// Step 1: does the base model leave structure?
-/// @returns the residuals of the data sets that calibrate it [points x data sets]
+/// Step 1: tests whether the base model leaves structure.
+/// @return the residuals of the calibrating data sets [points x data sets]
 Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const StructureStatistics statistics(base.fitted.data, base.refit,
                                        base.fitted.prediction_squared);
@@ -75,13 +76,13 @@ bool beyond_a_sharp_limit(const CandidateResult& c) {
       c.parameters, [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
 }
 
-/// Is it no description, nor a batch with the same effect as a law of size?
+/// Is it neither a description nor a batch effect that is equivalent to a law of size?
 bool may_be_a_cause(const CandidateResult& c) {
   return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
 }
 
-/// The best explanation among `candidates` (the best first), and what cannot be told from it; none
-/// without an explanation.
+/// The best explanation among `candidates` (sorted, best first) and its rivals, which cannot be
+/// distinguished from it; empty without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
                                                  double margin, bool one_size) {
   const auto best = std::ranges::find_if(candidates, &CandidateResult::explains);
@@ -90,8 +91,9 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
   for (const CandidateResult& c : candidates) {
     if (c.delta_aicc > best->delta_aicc + margin) break;
     if (&c == &*best) continue;
-    // So close to the best one, or before it, the other reasons to set something aside are as
-    // doubtful as it. If the best is itself possible by its error only, so is how far others are.
+    // If a candidate is as good as the best explanation, the other reasons to set it aside are
+    // doubtful. If the best is plausible only within its error, the distance of others from their
+    // ranges does not count.
     const bool near = c.near_plausible || (best->only_by_error && !beyond_a_sharp_limit(c));
     const bool possible = near && may_be_a_cause(c) && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
@@ -100,7 +102,7 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
   return found;
 }
 
-/// What all of them are laws of, each being a single mechanism; empty where there is no such thing.
+/// The cause of which all of them, each a single mechanism, are laws; empty if there is none.
 std::string shared_cause(const std::vector<const CandidateResult*>& found) {
   std::set<std::string> causes;
   for (const CandidateResult* c : found) {
@@ -111,7 +113,7 @@ std::string shared_cause(const std::vector<const CandidateResult*>& found) {
   return causes.size() == 1 ? *causes.begin() : std::string();
 }
 
-/// Several explanations that cannot be told apart, the best first.
+/// The answer for several explanations that cannot be distinguished, the best first.
 NotSeparable several(const std::vector<const CandidateResult*>& found, bool one_size) {
   NotSeparable answer;
   for (const CandidateResult* c : found) {
@@ -123,7 +125,8 @@ NotSeparable several(const std::vector<const CandidateResult*>& found, bool one_
       if (std::ranges::find(rivals, id) == rivals.end()) rivals.push_back(id);
     }
   }
-  if (one_size) return answer;  // which tells no cause, nor what causes have in common
+  if (one_size)
+    return answer;  // one size does not identify a cause, nor what causes have in common
   for (const std::string& id : answer.rivals) {
     const bool everywhere = std::ranges::all_of(found, [&](const auto* c) {
       const auto& added = c->candidate.added;
@@ -189,11 +192,10 @@ ExtendedModel extended_by(const CandidateResult& cause, const SearchBase& base,
   return extended;
 }
 
-/// Do errors that were not stated leave nothing, and fit so well that no cause can be told beside
-/// them? Better by `margin` than a single cause; nearly as well as two, the best of so many pairs:
-/// chance gives the best of N independent ones a criterion that is smaller by about 2 ln N.
-/// Readings of a scale have an error of their own, so that it need only come as close as a rival
-/// would.
+/// Do unstated errors leave no structure and fit so well that no cause can be identified? They must
+/// be better than a single cause by `margin`. Compared with a pair they may be worse by 2 ln N,
+/// which is about what chance gives the best of N independent pairs. Errors of readings of a scale
+/// always exist, so they need only be as close as a rival.
 bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
   const bool pair = best.candidate.added.size() > 1;
   const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : margin;
@@ -203,22 +205,23 @@ bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, 
   });
 }
 
-/// Does the best of all single candidates gain more than chance gives it?
+/// Does the best single candidate gain more than chance explains?
 bool more_than_chance(const Diagnosis& diagnosis) {
   return !diagnosis.candidates.empty() &&
          diagnosis.candidates.front().p_value <= diagnosis.options.chance;
 }
 
-/// Would it explain the misfit, but for an impossible value, or because an unknown law of size or
-/// rounding looks the same?
+/// Is it set aside only for an implausible value, or because an unknown law of size, or rounding,
+/// has the same effect?
 bool cannot_be_told(const CandidateResult& c) {
   return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
          c.set_aside == SetAside::batch_is_size || c.set_aside == SetAside::within_a_step;
 }
 
-/// A limit never promotes a worse cause. What fits best and cannot be true keeps its place: what is
-/// believable explains only if it is no worse by `margin`; two at once, beside a single one that
-/// leaves nothing, only if they are better by `lead`.
+/// Is the best explanation excluded by a better, but implausible candidate? Limits must not promote
+/// a worse cause: a plausible cause explains only if it is at most `margin` worse than the
+/// implausible one. If the implausible one leaves no structure alone, a pair explains only if it is
+/// better by `lead`.
 bool outshone(const CandidateResult& best, const CandidateResult& impossible, double margin,
               double lead) {
   const bool pair = best.candidate.added.size() > 1;
@@ -228,7 +231,7 @@ bool outshone(const CandidateResult& best, const CandidateResult& impossible, do
                             : best.delta_aicc > impossible.delta_aicc + margin;
 }
 
-/// Does a pair with a parameter at its limit fit better by `lead`? Then nothing is named, as with
+/// Does a pair with a parameter at its limit fit better by `lead`? Then no cause is named, as with
 /// single causes.
 bool outshone_at_the_edge(const CandidateResult& best, const std::vector<CandidateResult>& pairs,
                           double lead) {
@@ -237,9 +240,9 @@ bool outshone_at_the_edge(const CandidateResult& best, const std::vector<Candida
   });
 }
 
-/// Single causes that come so close to two at once, `found`, that one whose law is wrong by more
-/// than laws are allowed is as likely: rivals, though they leave structure. Those of the two are
-/// none, having been judged beside them.
+/// Adds single causes whose criterion is within `lead` of the best pair in `found`: rivals although
+/// they leave structure, because a law that is wrong by more than its allowed error is as likely.
+/// The members of the pair are excluded; they were judged with it.
 void add_close_singles(const std::vector<CandidateResult>& singles, double lead, double chance,
                        std::vector<const CandidateResult*>& found) {
   const CandidateResult& best = *found.front();
@@ -251,7 +254,8 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
   }
 }
 
-/// Does a possible cause fit no worse than `impossible`, though something is held against it, too?
+/// Is there a plausible cause that fits at least as well as `impossible`, although it is set aside
+/// for another reason?
 bool passes_over(const std::vector<CandidateResult>& candidates, const CandidateResult& impossible,
                  double chance) {
   return std::ranges::any_of(candidates, [&](const CandidateResult& c) {
@@ -260,7 +264,8 @@ bool passes_over(const std::vector<CandidateResult>& candidates, const Candidate
   });
 }
 
-/// The ids of all that cannot be told and fit as well as the best of them.
+/// The ids of the candidates for which `cannot_be_told` holds and that fit as well as the best of
+/// these.
 std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
   std::vector<std::string> ids;
   double best = INFINITY;
@@ -272,7 +277,7 @@ std::vector<std::string> resembling(const std::vector<CandidateResult>& candidat
   return ids;
 }
 
-/// Step 4 for two causes at once, with the single ones that come as close.
+/// Step 4 for pairs of causes, with the single causes that are as close.
 std::vector<const CandidateResult*> explanations_by_pairs(const SearchBase& base,
                                                           const std::vector<Fold>& folds,
                                                           double margin, bool one_size,
@@ -286,7 +291,7 @@ std::vector<const CandidateResult*> explanations_by_pairs(const SearchBase& base
 }
 
 /// Steps 2 to 5.
-/// @param simulated residuals of the data sets that calibrate [points x data sets]
+/// @param simulated residuals of the calibrating data sets [points x data sets]
 DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
                        const std::vector<IntervalSet>& base_intervals, Diagnosis& diagnosis) {
   const DiagnosisOptions& options = base.options;
@@ -325,7 +330,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   return answer;
 }
 
-/// Is it the errors of the materials that make the model adequate?
+/// Is the model adequate only because of the errors of its material constants?
 std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (diagnosis.base.model.constants.empty()) return std::nullopt;
   FitSpec exact = diagnosis.spec;
@@ -340,7 +345,7 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
-/// The structure that exact laws would leave and, if there is any, the causes that fit it best.
+/// The structure left if laws are exact and, if there is any, the causes that fit it best.
 std::optional<IfExact> if_exact(const SearchBase& allowed) {
   if (allowed.laws.none()) return std::nullopt;
   FitSpec spec = allowed.spec;
@@ -383,7 +388,8 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   return diagnosis;
 }
 
-/// `fitted`, which belongs to `spec`. @throws ComputationError when it has no usable answer
+/// Returns `fitted`, the fit of `spec`.
+/// @throws ComputationError if it is not usable
 FitResult usable(const FitSpec& spec, FitResult fitted) {
   if (fitted.usable) return fitted;
   throw ComputationError(
@@ -396,8 +402,7 @@ FitResult usable_fit(const FitSpec& spec, const std::vector<Dataset>& datasets) 
 
 }  // namespace
 
-/// The points of one diagnosis and the base model fitted to them. `base` refers to the members
-/// before it.
+/// The data of one diagnosis and the base model fitted to them. `base` refers to the other members.
 struct DiagnosedData {
   DiagnosedData(const FitSpec& stated, std::vector<Dataset> points, const FitResult& fitted,
                 const DiagnosisOptions& given)
@@ -414,7 +419,7 @@ struct DiagnosedData {
 
 namespace {
 
-/// @throws ComputationError when the fit cannot be repeated from its own answer
+/// @throws ComputationError if the fit cannot be repeated from its own result
 std::unique_ptr<DiagnosedData> all_points(const FitSpec& spec, const std::vector<Dataset>& datasets,
                                           const FitResult& fitted,
                                           const DiagnosisOptions& options) {
@@ -424,7 +429,7 @@ std::unique_ptr<DiagnosedData> all_points(const FitSpec& spec, const std::vector
       fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
 }
 
-/// The data without `outlying`, fitted again; null where there are none or no fit is usable.
+/// The data without the points `outlying`, refitted; null if there are none or if the fit fails.
 std::unique_ptr<DiagnosedData> other_points(const DiagnosedData& all,
                                             const std::vector<OutlyingPoint>& outlying) {
   if (outlying.empty()) return nullptr;
@@ -456,7 +461,7 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   const auto all = all_points(spec, datasets, fitted, options);
   const std::vector<OutlyingPoint> outlying = outlying_points(all->base);
   Diagnosis for_all = diagnose_all(all->base, base_intervals);
-  // Errors that all points have make odd points, too, and are the plainer answer.
+  // Errors that all points have may also make points outlie, and are the simpler answer.
   const bool errors_do = std::ranges::any_of(for_all.unstated, &UnstatedErrors::leave_nothing);
   const auto others = errors_do ? nullptr : other_points(*all, outlying);
   if (!others) return for_all;

@@ -28,12 +28,12 @@ toml::array paths_from(const FitSpec& spec, const std::filesystem::path& folder)
   return paths;
 }
 
-/// The estimate of `name`, or that of its first dataset or series; a per-series parameter starts
-/// at its null value instead, which is its default.
+/// Writes the entry of one parameter with its estimate (that of its first dataset). A parameter per
+/// series gets no entry: it starts at its null value, the default.
 void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
                        const FitResult& fitted) {
   const auto slot = std::ranges::find_if(fitted.model.slots, [&](const ParameterSlot& s) {
-    return s.parameter == spec.parameter && !s.stated;  // the data state those
+    return s.parameter == spec.parameter && !s.stated;  // the data state the others
   });
   if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
   const bool derived = spec.is_derived() && !spec.free;

@@ -18,19 +18,20 @@
 
 namespace recoil {
 
-/// Where the fitted base model misses: one diameter, one band of velocities.
+/// The misfit of the base model in one band of velocities at one diameter.
 struct MisfitCell {
   std::size_t dataset = 0;
   double diameter = 0.0;  ///< [m]
   double slowest = 0.0;   ///< incident velocity [m/s]
   double fastest = 0.0;   ///< [m/s]
   int points = 0;
-  double restitution = 0.0;   ///< mean of e - e_model [1]: positive where the model is too low
+  double restitution = 0.0;   ///< mean of e - e_model [1]: positive if the model is too low
   double energy = 0.0;        ///< mean of m V^2 / 2 (e^2 - e_model^2) [J]
   double standardised = 0.0;  ///< mean of e - e_model over its standard error [1]
 };
 
-/// Every diameter of every dataset in four bands of equal width in ln V; empty bands are left out.
+/// The cells of every diameter of every dataset in four bands of equal width in ln V, without empty
+/// bands.
 std::vector<MisfitCell> misfit_map(const FitResult& fitted);
 
 enum class Verdict { adequate, cause_named, not_separable, unexplained };
@@ -44,85 +45,85 @@ struct NamesOf<Verdict> {
 struct CaptureChange {
   std::size_t dataset = 0;
   double diameter = 0.0;                 ///< [m]
-  std::optional<double> base, extended;  ///< [m/s]; none where nothing is captured
+  std::optional<double> base, extended;  ///< [m/s]; nullopt if no sphere is captured
 };
 
-/// The answer for all points, where some were set aside.
+/// The answer for all points, if outlying points were set aside.
 struct AnswerForAll {
   Verdict verdict = Verdict::adequate;
   std::vector<std::string> named, rivals, resembles;
 };
 
-/// Exact materials would leave structure where those within their errors leave none.
+/// The model is adequate within the errors of the materials, but exact materials leave structure.
 struct MaterialsExplain {
-  double p_value_exact = 1.0;  ///< of the structure that exact materials leave
+  double p_value_exact = 1.0;  ///< p-value of the structure that exact materials leave
 };
 
-/// What an adequate model would leave if laws and losses had no error (`LawErrors`).
+/// The structure that an adequate model leaves if laws and losses have no error (`LawErrors`).
 struct IfExact {
-  double p_value = 1.0;  ///< of the structure, `quick_structure`
-  /// Where that is no more than the level of the diagnosis: the possible causes that fit best under
-  /// exact laws, none behind the first by more than its margin.
+  double p_value = 1.0;  ///< p-value of the structure, `quick_structure`
+  /// If the p-value is at most the level of the diagnosis: the possible causes that fit best under
+  /// exact laws, all within the margin of the first.
   std::vector<std::string> listed;
 };
 
-/// How often data sets like these, in which a cause acts, are answered how (`DesignRates`).
+/// How often simulated data sets like these, in which a cause acts, get each answer
+/// (`DesignRates`).
 struct Detection {
-  std::string id;         ///< of the cause
-  double strength = 1.0;  ///< its effect on e^2, over the effect that was found [1]
-  int datasets = 0;       ///< simulated
-  int named = 0;          ///< it alone is named
-  int listed = 0;         ///< it is listed among others
-  int wrong = 0;          ///< something else is named
+  std::string id;         ///< id of the cause
+  double strength = 1.0;  ///< its effect on e^2 over the estimated effect [1]
+  int datasets = 0;       ///< number of simulated data sets
+  int named = 0;          ///< number in which it alone is named
+  int listed = 0;         ///< number in which it is listed among others
+  int wrong = 0;          ///< number in which only another cause is named
 };
 
-/// What these points could have shown.
+/// How often a diagnosis of points like these finds a cause.
 struct OwnDesign {
-  std::vector<Detection> detection;  ///< of each cause that is named or listed
-  int datasets = 0;                  ///< simulated with nothing but the base model
-  int alarms = 0;                    ///< of these, how many are not adequate
+  std::vector<Detection> detection;  ///< for each cause that is named or listed
+  int datasets = 0;                  ///< number of data sets simulated with the base model alone
+  int alarms = 0;                    ///< number of these that are not adequate
 };
 
 /// The base model with a cause added.
 struct ExtendedModel {
-  CandidateResult cause;         ///< as it was found, with the weights of the base fit
-  std::optional<FitResult> fit;  ///< as `fit` has it, with settled weights; else `failure`
-  std::string failure;           ///< why there is no usable fit
-  /// Intervals of the parameters [slots] of the base fit and of this one: the
-  /// profile where standard deviations are stated, otherwise with 199
-  /// replicates.
+  CandidateResult cause;         ///< as the search found it, with the weights of the base fit
+  std::optional<FitResult> fit;  ///< result of `fit`, with converged weights; else see `failure`
+  std::string failure;           ///< reason for a missing fit
+  /// Intervals of the parameters [slots] of the base fit and of this one: from the profile if
+  /// standard deviations are stated, otherwise with 199 replicates.
   std::vector<IntervalSet> base_intervals, intervals;
   std::vector<CaptureChange> capture;
 };
 
-/// The answers. The base model leaves nothing systematic:
+/// The answers of a diagnosis. Adequate: the base model leaves no structure.
 struct Adequate {
-  std::optional<MaterialsExplain> materials;  ///< where its constants matter
-  std::optional<IfExact> if_exact;            ///< where laws are allowed an error
+  std::optional<MaterialsExplain> materials;  ///< if the errors of the constants matter
+  std::optional<IfExact> if_exact;            ///< if laws are allowed an error
 };
 
-/// One explanation, of one cause or of two at once, is told from all others.
+/// One explanation, a cause or a pair of causes, is distinguished from all others.
 struct CauseNamed {
-  ExtendedModel extended;  ///< by it
+  ExtendedModel extended;  ///< the base model with it
 };
 
-/// Several explanations, which these data cannot tell apart.
+/// Several explanations that these data cannot distinguish.
 struct NotSeparable {
-  ExtendedModel extended;           ///< by the best of them
-  std::vector<std::string> rivals;  ///< causes in any of them
-  std::vector<std::string> alone;   ///< where the best takes two: those that come close alone
-  std::vector<std::string> common;  ///< causes in all of them
-  std::string shared_cause;         ///< of which all rivals are laws; empty: none
+  ExtendedModel extended;                   ///< the base model with the best of them
+  std::vector<std::string> rivals;          ///< the causes in any of them
+  std::vector<std::string> alone;           ///< if the best is a pair: single causes that are close
+  std::vector<std::string> common;          ///< the causes in all of them
+  std::string shared_cause;                 ///< the cause of which all rivals are laws; empty: none
   std::vector<NextExperiment> experiments;  ///< the least effort first
 };
 
-/// Something of this shape acts: what fits best, but cannot be true, or not be
-/// told from an unknown law of size.
+/// The residuals have the shape of these causes, which fit best but are implausible, or cannot be
+/// distinguished from an unknown law of size.
 struct Resembles {
   std::vector<std::string> causes;
 };
 
-/// Unstated errors do as well as the best explanation, `cause`, or better.
+/// Unstated errors explain the data as well as the best explanation, `cause`, or better.
 struct ErrorsTooSmall {
   std::string cause;
 };
@@ -133,62 +134,64 @@ struct Unexplained {};
 using DiagnosisAnswer =
     std::variant<Adequate, CauseNamed, NotSeparable, Resembles, ErrorsTooSmall, Unexplained>;
 
-/// What `diagnose` finds.
+/// The result of `diagnose`.
 struct Diagnosis {
   DiagnosisOptions options;
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult base;
   DiagnosisAnswer answer;
-  Structure structure;                      ///< of the base model's residuals
-  std::vector<OutlyingPoint> outlying;      ///< set aside; all that follows is without them
-  std::optional<AnswerForAll> for_all;      ///< with them; none where there are none
-  std::vector<MisfitCell> where;            ///< the map
-  std::vector<double> free_form;            ///< discrepancy as residuals [points]; empty: none
-  double free_form_p = 1.0;                 ///< of the scatter that it leaves
+  Structure structure;  ///< structure of the base model's residuals
+  /// Points that were set aside; the other members are without them.
+  std::vector<OutlyingPoint> outlying;
+  std::optional<AnswerForAll> for_all;  ///< the answer with them; nullopt if there are none
+  std::vector<MisfitCell> where;        ///< the misfit map
+  std::vector<double> free_form;  ///< free-form discrepancy as residuals [points]; empty: none
+  double free_form_p = 1.0;       ///< p-value of the scatter that it leaves
   std::vector<CandidateResult> candidates;  ///< single mechanisms, the best first
-  std::vector<CandidateResult> pairs;       ///< the best pairs of causes, when one did not suffice
-  std::vector<ExpectedEffect> expected;     ///< of what the conditions state, the largest first
-  std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
-  std::optional<OwnDesign> own_design;   ///< where it was asked for
-  /// What a reader has to know about the points: for reconstructions, what their recipe put there.
+  std::vector<CandidateResult> pairs;       ///< the best pairs of causes, if no single one explains
+  std::vector<ExpectedEffect> expected;     ///< effects of the stated conditions, the largest first
+  std::vector<UnstatedErrors> unstated;     ///< the likeliest first; empty if the model is adequate
+  std::optional<OwnDesign> own_design;      ///< if requested
+  /// Remarks about the points; for reconstructed data, the effects that their recipe contains.
   std::vector<std::string> remarks;
 
   Verdict verdict() const;
-  std::vector<std::string> named() const;      ///< causes; empty: none is named
-  std::vector<std::string> rivals() const;     ///< empty: nothing is listed
-  std::vector<std::string> resembles() const;  ///< empty: no shape is recognised
-  std::vector<std::string> causes() const;     ///< whichever of these there are
-  const ExtendedModel* extended() const;       ///< null where there is none
-  const HeldOutGain* gain() const;             ///< of its fit; null where there is none
-  /// The answer, if it is this one.
+  std::vector<std::string> named() const;      ///< the named causes; empty: none
+  std::vector<std::string> rivals() const;     ///< the listed causes; empty: none
+  std::vector<std::string> resembles() const;  ///< the causes with a similar shape; empty: none
+  std::vector<std::string> causes()
+      const;  ///< the causes of the answer, whether named, rivals or resembling
+  const ExtendedModel* extended() const;  ///< null if there is none
+  const HeldOutGain* gain() const;        ///< held-out gain of its fit; null if there is none
+  /// The answer if it is of type One, else null.
   template <class One>
   const One* answer_if() const {
     return std::get_if<One>(&answer);
   }
 };
 
-/// Have all points about the same diameter, so that none shows how an effect depends on it?
+/// Do all points have about the same diameter, so that the size dependence of an effect is unknown?
 bool has_one_size(const Observations& data);
 
-/// Could the points show anything of how e varies with V and d, beside what the parameters take?
+/// Can the points test how e varies with V and d, beyond what the parameters fit?
 bool tests_the_curve(const Diagnosis& diagnosis);
 
-/// Do series of one size differ, at the same velocities, in a way that nothing named explains?
+/// Do series of one size differ at the same velocities in a way that no named cause explains?
 bool series_differ(const Diagnosis& diagnosis);
 
-/// Have so many simulated data sets no fit that a reader has to know (more than one in a hundred)?
+/// Did the fits of more than 1 % of the simulated data sets fail, so that a reader must know?
 bool simulations_failed(const Structure& structure);
 
-/// The diameter and band of velocities at which the base model misses most; null where it misses
-/// nowhere by two standard errors.
+/// The cell with the largest misfit of the base model; null if none exceeds two standard errors.
 const MisfitCell* worst_cell(const Diagnosis& diagnosis);
 
-/// The point that makes more than half of the misfit, if one does: index into the observations.
+/// The point that contributes more than half of the misfit, as an index into the observations;
+/// nullopt without one.
 std::optional<std::size_t> dominant_point(const Diagnosis& diagnosis);
 
-/// How many more points rebounded than parameters are free: with fewer than three hardly anything
-/// but the model could have been seen.
+/// The number of rebounds compared with the free parameters: with fewer than three more, the points
+/// can hardly contradict the model.
 struct Evidence {
   int rebounds = 0;
   int free = 0;
@@ -196,12 +199,12 @@ struct Evidence {
 };
 Evidence evidence_for(const Diagnosis& diagnosis);
 
-/// The cause that takes more than four fifths of the misfit and is not named, because structure is
-/// left; null where there is none.
+/// The cause that explains more than 80 % of the misfit but is not named because structure is left;
+/// null without one.
 const CandidateResult* closest_cause(const Diagnosis& diagnosis);
 
-/// Errors that were not stated and that would do as well as the answer, or without one; beside two
-/// causes at once also those that fit less well, as they need one number.
+/// Unstated errors that explain the data as well as the answer, or without an answer. Next to a
+/// pair of causes also those that fit less well, as they need only one number.
 std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis);
 
 }  // namespace recoil

@@ -7,8 +7,8 @@
 namespace recoil {
 namespace {
 
-constexpr double left_out = 1e-6;   // of the unit variance of a smooth function
-constexpr double too_small = 1e-9;  // of a variance of residuals, beside their own
+constexpr double left_out = 1e-6;  // variance that may be neglected, over that of a smooth function
+constexpr double too_small = 1e-9;  // variance that may be neglected, over that of a residual
 
 /// The matrix I + Q diag(factor) Q' times `m`.
 template <class M>
@@ -58,7 +58,7 @@ Discrepancy::Discrepancy(const Eigen::MatrixXd& shared) {
   whiter_.resize(rank);
   rougher_.resize(rank);
   for (Eigen::Index k = 0; k < rank; ++k) {
-    const Eigen::Index from = variances.size() - 1 - k;  // in the order of size, the largest first
+    const Eigen::Index from = variances.size() - 1 - k;  // in descending order
     const double variance = variances(from);
     directions_.col(k) = shared * eigen.eigenvectors().col(from) / std::sqrt(variance);
     rougher_(k) = std::sqrt(1.0 + variance) - 1.0;

@@ -12,18 +12,18 @@ struct SearchBase;
 
 /// An effect that theory predicts from the stated conditions of the data.
 struct ExpectedEffect {
-  std::string id;  ///< of the mechanism
+  std::string id;  ///< id of the mechanism
   std::size_t dataset = 0;
   Condition condition = Condition::ambient_pressure;
-  double stated = 0.0;    ///< the condition, in its unit
-  double diameter = 0.0;  ///< of the point on which it does most [m]
-  double velocity = 0.0;  ///< and its incident velocity [m/s]
-  double change = 0.0;    ///< of e there [1]
+  double stated = 0.0;    ///< value of the condition, in its unit
+  double diameter = 0.0;  ///< diameter of the point with the largest effect [m]
+  double velocity = 0.0;  ///< incident velocity of that point [m/s]
+  double change = 0.0;    ///< change of e at that point [1]
 };
 
-/// For every dataset and every mechanism whose strength its conditions state, what the mechanism
-/// does to e under the parameters of the base fit; also where that is too little to be seen. The
-/// largest change first.
+/// For every dataset and every mechanism whose strength its conditions state: the largest change of
+/// e by the mechanism at the parameters of the base fit, even if it is too small to be detected.
+/// The largest change first.
 std::vector<ExpectedEffect> expected_effects(const SearchBase& base);
 
 }  // namespace recoil

@@ -20,11 +20,11 @@ namespace {
 constexpr std::size_t most_size_folds = 6;
 constexpr std::size_t velocity_bands = 3;
 constexpr int resamplings = 1999;
-// Beyond it a miss counts as this [standard deviations]: where a model has a cut-off, one point on
-// its wrong side would outweigh all others.
+// Larger deviations count as this [standard deviations]: if a model has a cut-off, one point on the
+// wrong side would outweigh all others.
 constexpr double worst_miss = 5.0;
 
-/// `points` of all, or the others, in the order of the data.
+/// The indices of `points` (`inside`) or of all others, in the order of the data.
 std::vector<std::size_t> indices_of(const Observations& data,
                                     const std::vector<std::size_t>& points, bool inside) {
   std::vector<bool> chosen(data.points.size(), false);
@@ -40,8 +40,8 @@ Observations subset(const Observations& data, const std::vector<std::size_t>& po
   return data.subset(indices_of(data, points, inside));
 }
 
-/// Takes from the `residuals` of a fold what the residuals `r_seen` of the other points say of it,
-/// and returns what its residuals then share.
+/// Subtracts from the `residuals` of a fold their prediction from the residuals `r_seen` of the
+/// other points. @return the errors that the residuals of the fold then share
 Discrepancy given_the_others(const Eigen::MatrixXd& U_seen, const std::vector<double>& r_seen,
                              const Eigen::MatrixXd& U, std::vector<double>& residuals) {
   const Eigen::Index rank = U.cols();
@@ -54,7 +54,7 @@ Discrepancy given_the_others(const Eigen::MatrixXd& U_seen, const std::vector<do
   return Discrepancy(information.matrixL().solve(U.transpose()).transpose());
 }
 
-/// Distinct values with how many points each has, split into at most `most` runs of like size.
+/// Splits distinct values into at most `most` groups of neighbours with about equally many values.
 std::vector<std::vector<double>> groups_of(const std::set<double>& values, std::size_t most) {
   const std::vector<double> sorted(values.begin(), values.end());
   const std::size_t count = std::min(most, sorted.size());

@@ -17,15 +17,15 @@
 namespace recoil {
 namespace {
 
-/// The columns of a refit's Jacobian that belong to what moves, each of unit length: the units of
-/// the parameters lie twenty decades apart.
+/// The columns of a refit's Jacobian for the moving slots, scaled to unit length, because the units
+/// of the parameters differ by twenty orders of magnitude.
 struct MovingColumns {
   std::vector<std::size_t> slots;  ///< [columns]
   Eigen::MatrixXd unit;            ///< [points x columns]
   Eigen::VectorXd length;          ///< [columns]
 };
 
-/// Nothing where no slot moves, or where no residual feels one that does.
+/// Nullopt if no slot moves, or if a moving slot has no effect.
 std::optional<MovingColumns> moving_columns(const Refit& refit) {
   const std::size_t slots = refit.theta.size();
   MovingColumns found;
@@ -43,16 +43,16 @@ std::optional<MovingColumns> moving_columns(const Refit& refit) {
   return found;
 }
 
-constexpr double at_null = 1e-9;  // of the range of a parameter
+constexpr double at_null = 1e-9;  // relative to the range of a parameter
 
-/// Beyond the range by no more than half of it, or a factor of two.
+/// Is `value` outside the range by at most half of it, or by a factor of two for `log_scale`?
 bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {
   if (slot.log_scale) return value >= 0.5 * lower && value <= 2.0 * upper;
   const double half = 0.5 * (upper - lower);
   return value >= lower - half && value <= upper + half;
 }
 
-/// `value` by `reach` towards the range; for a logarithmic slot in ln.
+/// `value`, moved towards the range by at most `reach`; for `log_scale` in the logarithm.
 double nearest_to_range(const ParameterSlot& slot, double value, double reach, double lower,
                         double upper) {
   if (!(reach > 0.0)) return value;
@@ -63,7 +63,7 @@ double nearest_to_range(const ParameterSlot& slot, double value, double reach, d
   return value;
 }
 
-/// Sets what of `parameter`, the one of slot `j`, is impossible.
+/// Sets the plausibility of `parameter`, the one of slot `j`.
 void set_implausible(const Candidate& candidate, const Refit& refit, std::size_t j, double reach,
                      FoundParameter& parameter) {
   const ParameterSlot& slot = candidate.model.slots[j];
@@ -128,7 +128,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
 namespace {
 
 constexpr double not_by_chance = 0.001;
-constexpr std::size_t terms = 3;  // of a parabola
+constexpr std::size_t terms = 3;  // coefficients of a parabola
 
 struct Offset {
   std::size_t slot = 0;
@@ -136,7 +136,7 @@ struct Offset {
   double log_diameter = 0.0;
 };
 
-/// The offsets that move, each with the diameter of its series.
+/// The moving offsets, each with the diameter of its series.
 std::vector<Offset> moving_offsets(const Observations& data, const CandidateResult& candidate) {
   const ImpactModel& model = candidate.candidate.model;
   const auto batch = std::ranges::find_if(model.chain, &Mechanism::is_batch);
@@ -154,7 +154,8 @@ std::vector<Offset> moving_offsets(const Observations& data, const CandidateResu
   return offsets;
 }
 
-/// The covariance of all that moves; the place of each slot in it.
+/// The covariance of the moving slots. @param place receives the row of each slot in it, -1 for
+/// others
 Eigen::MatrixXd covariance_of(const Refit& refit, std::vector<Eigen::Index>& place) {
   const auto moving = moving_columns(refit);
   if (!moving) return {};
@@ -198,7 +199,7 @@ bool batch_is_size(const Observations& data, const CandidateResult& candidate, d
       A = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(columns));
   Eigen::VectorXd o(count);
   Eigen::Index column = 0;
-  std::map<std::size_t, Eigen::Index> first;  // column of each dataset
+  std::map<std::size_t, Eigen::Index> first;  // first column of each dataset
   for (const auto& [dataset, own] : of_dataset) {
     first[dataset] = column;
     column += static_cast<Eigen::Index>(std::min(terms, own.size()));
@@ -217,7 +218,8 @@ bool batch_is_size(const Observations& data, const CandidateResult& candidate, d
                 all(place[at.slot], place[offsets[static_cast<std::size_t>(j)].slot]);
     }
   }
-  // What the base model's own parameters make of offsets has no error of its own: a floor.
+  // A lower limit of the variances: combinations of offsets that the base parameters can produce
+  // have a singular covariance.
   C.diagonal().array() += 1e-12;
   const Eigen::LLT<Eigen::MatrixXd> root(C);
   if (root.info() != Eigen::Success) return true;
@@ -229,7 +231,7 @@ bool batch_is_size(const Observations& data, const CandidateResult& candidate, d
 }
 namespace {
 
-/// Is the parameter an error of a height, a length that only what falls from heights can have?
+/// Is the parameter an error of a drop height, a length [m] that only drop experiments have?
 bool is_height(const Parameter& parameter) {
   const Mechanism* const mechanism = parameter.mechanism;
   return mechanism != nullptr && parameter.unit == "m" &&
@@ -237,7 +239,7 @@ bool is_height(const Parameter& parameter) {
          mechanism->info.methods == std::vector<Method>{Method::drop_heights};
 }
 
-/// Is it an error of a height which the rounding of the heights may make?
+/// Is an added parameter an error of a height that may be due to the rounding of the heights?
 bool within_a_step(const SearchBase& base, const CandidateResult& c) {
   const std::vector<double> errors = standard_errors(c.refit, base.noise_scale);
   for (std::size_t j = 0; j < c.refit.theta.size(); ++j) {
@@ -268,7 +270,7 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
 
 void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
            const std::vector<Fold>& folds) {
-  std::optional<std::vector<FoldPrediction>> base_folds;  // found where something explains
+  std::optional<std::vector<FoldPrediction>> base_folds;  // computed when first needed
   const auto hold_out = [&](CandidateResult& c) {
     if (!base_folds) {
       base_folds = predict_folds(base.candidate, base.fitted.data, base.laws, folds,
@@ -284,7 +286,7 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, dou
   for (CandidateResult& c : candidates) {
     if (c.explains()) c.set_aside = reason_against(base, c);
   }
-  double best = INFINITY;  // of those that explain
+  double best = INFINITY;  // smallest delta_aicc of the explanations so far
   for (CandidateResult& c : candidates) {
     if (!c.explains() || c.delta_aicc > best + reach) continue;
     hold_out(c);

@@ -11,12 +11,12 @@
 namespace recoil {
 namespace {
 
-/// Rounds in which the covariance follows the parameters: the second moves a criterion by less than
-/// 0.1.
+/// Rounds in which the covariance is recomputed at the parameters: the second changes a criterion
+/// by less than 0.1.
 constexpr int rounds = 2;
-constexpr double most_loss = 1.0;  // of e^2: no more than all the energy
+constexpr double most_loss = 1.0;  // largest loss of e^2: all the energy
 
-/// e^2 of every point, 0 where it is captured; empty where there is no answer.
+/// e^2 of every point, below zero for a capture; nullopt if an impact cannot be solved.
 std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<const double> theta) {
   predictor.evaluate(theta, false);
   Eigen::VectorXd found(static_cast<Eigen::Index>(predictor.size()));
@@ -47,7 +47,7 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   if (!all) return std::nullopt;
   const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
   if (!bare) return std::nullopt;
-  std::vector<Eigen::VectorXd> sizes;  // of each error, in e^2
+  std::vector<Eigen::VectorXd> sizes;  // size of each error, in e^2 [points]
   sizes.push_back(laws.base * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
   for (const Mechanism* mechanism : model.chain) {
     const std::optional<Eigen::VectorXd> less =

@@ -16,12 +16,12 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_compared = 4;    // rivals
-constexpr int grid_velocities = 24;         // of each diameter
-constexpr double smallest_sd = 1e-3;        // of e of one impact, where a point states less
-constexpr double least_restitution = 0.05;  // below it e^2 is not linear in e
-constexpr double most_impacts = 1e6;        // of an experiment
-constexpr int effort_of_a_change = 100;     // of a condition, in impacts
+constexpr std::size_t most_compared = 4;              // largest number of compared rivals
+constexpr int grid_velocities = 24;                   // velocities in the grid of each diameter
+constexpr double smallest_sd = 1e-3;                  // least sd of e of one impact
+constexpr double least_restitution = 0.05;            // below it e^2 is not linear in e
+constexpr double most_impacts = 1e6;                  // largest number of impacts of an experiment
+constexpr int effort_of_a_change = 100;               // effort of changing a condition, in impacts
 constexpr double wanted_log_odds = 4.59511985013459;  // ln 99
 
 /// The impacts to choose from, see `next_experiments`, and the standard deviation of e of one [1].
@@ -30,7 +30,8 @@ struct PossibleImpacts {
   std::vector<double> sd;
 };
 
-/// The nearest diameter in which balls and microspheres are sold [m]: 1, 1.2, 1.5, ... of a decade.
+/// The nearest diameter in which balls and microspheres are sold [m]: 1, 1.2, 1.5, ... in each
+/// decade.
 double sold_size(double diameter) {
   constexpr std::array sold = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
   const int decade = static_cast<int>(std::floor(std::log10(diameter)));
@@ -96,7 +97,7 @@ struct Linearised {
   Eigen::Index parameters = 0;
 };
 
-/// @returns nullopt where the model has no answer
+/// @return nullopt if an impact cannot be solved
 std::optional<Linearised> linearised_at(const CandidateResult& rival, const Observations& all,
                                         const std::vector<double>& theta, const LawErrors& laws) {
   const LeastSquaresProblem problem = impact_problem(rival.candidate.model, all);
@@ -121,8 +122,8 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Obse
 
 /// The prediction of a rival for each possible impact.
 struct PredictedImpacts {
-  std::vector<double> restitution;  ///< mean e, 0 where captured; NaN without an answer
-  std::vector<double> variance;     ///< of that mean, over the variance of one impact
+  std::vector<double> restitution;  ///< mean e, 0 for a capture; NaN if the impact cannot be solved
+  std::vector<double> variance;     ///< variance of that mean over the variance of one impact
 };
 
 /// The distribution of the possible impacts given the measured points, see `next_experiments`.
@@ -180,7 +181,7 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
   return found;
 }
 
-/// ln of the odds that `count` impacts are expected to give the true one of two rivals.
+/// The expected ln odds for the true one of two rivals after `count` impacts.
 /// @param apart difference of the predicted means, over the standard deviation of one impact
 /// @param one,other variances of the predictions, over the variance of one impact
 double expected_log_odds(double apart, double one, double other, double count) {
@@ -192,8 +193,8 @@ double expected_log_odds(double apart, double one, double other, double count) {
   return std::min(divergence(a, b), divergence(b, a));
 }
 
-/// The fewest impacts whose `log_odds(count)`, which rise with them, reach ln 99; nullopt where
-/// `most_impacts` are not enough.
+/// The smallest number of impacts whose `log_odds(count)`, an increasing function, reaches ln 99;
+/// nullopt if `most_impacts` are not enough.
 template <class LogOdds>
 std::optional<int> fewest_impacts(const LogOdds& log_odds) {
   const auto enough = [&](double count) { return log_odds(count) >= wanted_log_odds; };
@@ -207,8 +208,8 @@ std::optional<int> fewest_impacts(const LogOdds& log_odds) {
   return std::max(1, static_cast<int>(std::ceil(many)));
 }
 
-/// Writes the impact that tells two predictions apart with the fewest events into `experiment`.
-/// @returns false where there is none
+/// Writes into `experiment` the impact that distinguishes two predictions with the fewest events.
+/// @return false if there is none
 bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
                  const PredictedImpacts& b, NextExperiment& experiment) {
   std::optional<int> fewest;
@@ -266,7 +267,7 @@ double value_for(const SearchBase& base, const TakenAway& away, std::size_t data
   return largest;
 }
 
-/// Adds the changes of a condition that remove a mechanism which `one` has and `other` has not.
+/// Adds the changes of a condition that remove a mechanism which `one` has and `other` lacks.
 void add_changes(const SearchBase& base, const PossibleImpacts& possible,
                  const CandidateResult& one, const CandidateResult& other,
                  const PredictedImpacts& of_other, std::vector<NextExperiment>& all) {

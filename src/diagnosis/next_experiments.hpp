@@ -21,32 +21,33 @@ struct NamesOf<ExperimentKind> {
   static constexpr std::array<std::string_view, 2> names = {"points", "condition"};
 };
 
-/// An experiment that would tell one rival from another.
+/// An experiment that distinguishes two rivals.
 struct NextExperiment {
   ExperimentKind kind = ExperimentKind::points;
   std::string one, other;  ///< names of the two candidates
   std::size_t dataset = 0;
-  std::size_t series = 0;  ///< of that dataset: the one whose impacts are most similar
+  std::size_t series = 0;  ///< the series of that dataset with the most similar impacts
   double diameter = 0.0;   ///< [m]
   double velocity = 0.0;   ///< incident velocity [m/s]
-  /// e predicted by `one` less e predicted by `other`. Of kind `condition` the change removes the
-  /// mechanism of `one` [1].
+  /// e predicted by `one` minus e predicted by `other` [1]. For kind `condition`, the change
+  /// removes the mechanism of `one`.
   double difference = 0.0;
-  int events = 0;                                     ///< impacts for expected odds of 99 to 1
-  double log_odds = 0.0;                              ///< expected from that many, at least ln 99
-  Condition condition = Condition::ambient_pressure;  ///< of kind `condition`
-  double value = 0.0;                                 ///< of the condition, in its unit
-  std::string_view doing;                             ///< in a laboratory: "pump the chamber"
+  int events = 0;         ///< number of impacts for expected odds of 99 to 1
+  double log_odds = 0.0;  ///< expected ln odds from that many impacts, at least ln 99
+  /// For kind `condition`: the changed condition.
+  Condition condition = Condition::ambient_pressure;
+  double value = 0.0;      ///< value of the condition, in its unit
+  std::string_view doing;  ///< instruction: "pump the chamber"
 };
 
-/// For every two of the first four `rivals`: the impacts that tell them apart with the fewest
-/// events. Where the catalogue knows a condition that removes a mechanism which only one of the two
-/// has, also the impacts that do so under that condition. Sorted by effort: the number of impacts,
-/// plus 100 for a changed condition. Experiments of more than a million impacts are left out.
+/// For every two of the first four `rivals`: the impact conditions that distinguish them with the
+/// fewest impacts. If the catalogue has a condition that removes a mechanism of only one of the
+/// two, also the best impact under that condition. Sorted by effort: the number of impacts, plus
+/// 100 for a changed condition. Experiments of more than a million impacts are omitted.
 ///
 /// The impacts to choose from are 24 velocities from 0.7 times the slowest to 1.5 times the fastest
-/// measured, for every diameter of the data, and for those in which spheres are sold nearest to 0.6
-/// times the smallest and 1.6 times the largest.
+/// measured, for every diameter of the data and for the commercial sphere sizes nearest to 0.6
+/// times the smallest and 1.6 times the largest diameter.
 ///
 /// Each rival predicts the mean e of n impacts as a normal variable. Its variance has three parts:
 /// the scatter of one impact over n, the errors of the fitted parameters, and the errors of the
@@ -61,8 +62,8 @@ struct NextExperiment {
 std::vector<NextExperiment> next_experiments(const SearchBase& base,
                                              const std::vector<const CandidateResult*>& rivals);
 
-/// Standard deviation of e of one impact [1]: that of the point of the dataset that is nearest in
-/// ln V, at least 0.001.
+/// Standard deviation of e of one impact [1]: that of the nearest point of the dataset in ln V, at
+/// least 0.001.
 double scatter_of_one_event(const FitResult& base, std::size_t dataset, double velocity);
 
 }  // namespace recoil

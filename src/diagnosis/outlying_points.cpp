@@ -15,16 +15,20 @@
 namespace recoil {
 namespace {
 
-constexpr double false_rate = 0.05;      // of data sets in which any point is accused
-constexpr double any_discrepancy = 0.3;  // of e^2
-constexpr double steepness = 2.0;        // power of V_min / V: what a wrong capture velocity leaves
-constexpr double any_parameter = 1e4;    // standard deviations of the residuals
-constexpr double to_sd = 1.4826;         // of the median of |z|
-constexpr std::size_t fewest = 8;        // points that can accuse one
+// Fraction of data sets in which any point is wrongly called outlying.
+constexpr double false_rate = 0.05;
+constexpr double any_discrepancy = 0.3;  // sd of a smooth discrepancy of e^2
+// Power of V_min / V in the residuals of a wrong capture velocity.
+constexpr double steepness = 2.0;
+// Prior sd of a parameter's effect, in standard deviations of the residuals.
+constexpr double any_parameter = 1e4;
+constexpr double to_sd = 1.4826;   // sd over the median of |z| for a normal z
+constexpr std::size_t fewest = 8;  // fewest points that can show another to be outlying
 
 using Indices = std::vector<std::size_t>;
 
-/// The columns that residuals may follow: the base model's parameters and smooth functions.
+/// The columns U of the covariance of the residuals: base parameters, smooth functions, and the
+/// effect of a wrong capture velocity for each diameter.
 Eigen::MatrixXd predictable(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   const std::size_t p = base.refit.theta.size();
@@ -45,7 +49,7 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
   const auto group_count = static_cast<Eigen::Index>(groups.size());
   const Eigen::Index near_capture = free + smooth.cols();
   Eigen::MatrixXd U = Eigen::MatrixXd::Zero(n, near_capture + group_count);
-  // The Jacobian of the plain residuals: that of the refit is whitened.
+  // The Jacobian of the unwhitened residuals; that of the refit is whitened.
   for (Eigen::Index j = 0; j < free; ++j) {
     std::vector<double> column;
     for (std::size_t i = 0; i < data.points.size(); ++i) {
@@ -68,8 +72,8 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
   return U;
 }
 
-/// How the points `asked` lie from what the points `others` predict, each left out itself, in
-/// standard deviations.
+/// The deviations of points from their prediction by the points `others`, in standard deviations. A
+/// point is not used for its own prediction.
 class PredictionByOthers {
  public:
   PredictionByOthers(const Eigen::MatrixXd& U, const Eigen::VectorXd& r, const Indices& others)
@@ -82,7 +86,7 @@ class PredictionByOthers {
     }
     solver_.compute(information_);
   }
-  /// One of the others: by what is left when it is not among them.
+  /// The deviation of a point that is one of the others: predicted without it.
   double of_one_of_them(std::size_t i) const {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::VectorXd weight = solver_.solve(U_.row(row).transpose());
@@ -90,7 +94,7 @@ class PredictionByOthers {
     const double left = r_(row) - weight.dot(along_);        // [C^-1 r]_i
     return precision > 1e-9 ? left / std::sqrt(precision) : 0.0;
   }
-  /// Any other point.
+  /// The deviation of a point that is not one of the others.
   double of_another(std::size_t i) const {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::VectorXd weight = solver_.solve(U_.row(row).transpose());
@@ -125,7 +129,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   const Eigen::MatrixXd U = predictable(base);
   const double limit = gsl_cdf_ugaussian_Qinv(0.5 * false_rate / static_cast<double>(n));
   Indices kept, out;
-  // A captured point that the model captures has no residual to speak of.
+  // A captured point that the model also captures has a residual near zero.
   for (std::size_t i = 0; i < n; ++i) {
     if (data.points[i].informs(base.fitted.prediction_squared[i])) kept.push_back(i);
   }
@@ -152,7 +156,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
                      point.censored ? 0.0 : point.restitution, z});
   };
   if (out.empty()) {
-    // Too few to know any smooth function: the model itself predicts each by the others.
+    // Too few points for smooth functions: `odd_point` predicts each from the others by the model.
     if (kept.size() > fewest + free) return found;
     if (const std::optional<OddPoint> odd = odd_point(base.fitted)) add(odd->index, odd->residual);
     return found;
@@ -169,7 +173,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
 
 std::vector<Dataset> without_points(std::vector<Dataset> datasets,
                                     const std::vector<OutlyingPoint>& outlying) {
-  std::size_t index = 0;  // of the observations, which are the points of all datasets in order
+  std::size_t index = 0;  // index of the observation: the points of all datasets in order
   for (Dataset& dataset : datasets) {
     std::vector<ImpactPoint> kept;
     for (const ImpactPoint& point : dataset.points) {

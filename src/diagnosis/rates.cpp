@@ -13,10 +13,10 @@
 namespace recoil {
 namespace {
 
-/// Apart from the draws that calibrate a diagnosis.
+/// The first index of these draws, separate from the draws that calibrate a diagnosis.
 constexpr std::uint64_t first_draw = std::uint64_t{1} << 32;
 
-/// e^2 of every point where `cause` has the part `strength` of the effect that was found.
+/// e^2 of every point if `cause` has the fraction `strength` of its estimated effect.
 std::vector<double> squares_at(const CandidateResult& cause, const Observations& data,
                                double strength) {
   const ImpactModel& model = cause.candidate.model;
@@ -37,7 +37,7 @@ std::vector<double> squares_at(const CandidateResult& cause, const Observations&
   return squares;
 }
 
-/// `datasets` with the readings of `sample`, whose points are theirs in the same order.
+/// `datasets` with the readings of `sample`, whose points are in the same order.
 std::vector<Dataset> with_readings(std::vector<Dataset> datasets, const Observations& sample) {
   std::size_t next = 0;
   for (Dataset& dataset : datasets) {
@@ -95,7 +95,7 @@ std::vector<double> DesignRates::run(std::size_t piece) const {
     const bool seen = found.verdict() != Verdict::adequate;
     return {seen ? 1.0 : 0.0, alone ? 1.0 : 0.0, listed && !alone ? 1.0 : 0.0,
             found.answer_if<CauseNamed>() && !listed ? 1.0 : 0.0};
-  } catch (const ComputationError&) {  // which says nothing of a cause
+  } catch (const ComputationError&) {  // a failed fit gives no answer
     return {0.0, 0.0, 0.0, 0.0};
   }
 }

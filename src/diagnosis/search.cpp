@@ -16,8 +16,8 @@
 namespace recoil {
 namespace {
 
-/// The fit with an error of settings that no smooth law could explain: the one that it estimated
-/// takes up whatever the base model gets wrong, and would hide it.
+/// The fit with an error of settings that excludes smooth trends: the one that the fit estimated
+/// includes the misfit of the base model and would hide it.
 FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& datasets,
                               const FitResult& fitted) {
   const Observations& data = fitted.data;
@@ -74,8 +74,8 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 namespace {
 
-/// All impacts of `point` were captured, and of their scatter nothing is known: where the model has
-/// them come back, the error of e decides (see `weighted_residual`).
+/// Draws a point whose impacts were all captured and whose scatter is unknown: if the model
+/// predicts a rebound, the error of e decides (see `weighted_residual`).
 void draw_capture(Observation& point, double square, RandomStream& random) {
   const double sd = point.weights.sd;
   const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
@@ -150,8 +150,8 @@ bool spreads(const CandidateResult& single) {
 
 namespace {
 
-/// The Jacobian of the residuals of the points under `theta`, under the covariance of the base
-/// [at least points x slots].
+/// The Jacobian of the residuals at `theta`, whitened by the covariance of the base [at least
+/// points x slots].
 std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
                                 const std::vector<double>& theta) {
   const LeastSquaresProblem problem =
@@ -162,7 +162,7 @@ std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candida
   return jacobian;
 }
 
-/// The chosen columns of the first `points` rows of a Jacobian, each of unit length.
+/// The chosen columns of the first `points` rows of a Jacobian, scaled to unit length.
 template <class Chosen>
 Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
                              std::size_t slots, const Chosen& chosen) {
@@ -178,9 +178,9 @@ Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index p
   return columns.leftCols(count);
 }
 
-/// An orthonormal basis of what the columns span [points x rank].
+/// An orthonormal basis of the span of the columns [points x rank].
 Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
-  constexpr double negligible = 1e-6;  // of the unit length that columns had
+  constexpr double negligible = 1e-6;  // of the unit length of the columns
   if (columns.cols() == 0) return columns;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   Eigen::Index rank = 0;

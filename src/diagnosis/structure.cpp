@@ -15,9 +15,10 @@
 namespace recoil {
 namespace {
 
-constexpr int highest_degree = 11;       // of the free form in ln V
-constexpr double negligible = 1e-6;      // part of a function that the model does not follow
-constexpr double same_diameter = 0.005;  // relative
+constexpr int highest_degree = 11;  // highest degree of the free form in ln V
+// Smallest part of a function, orthogonal to the model, that is tested.
+constexpr double negligible = 1e-6;
+constexpr double same_diameter = 0.005;  // relative difference of diameters that count as equal
 
 double dot(std::span<const double> a, std::span<const double> b) {
   const auto vector = [](std::span<const double> values) {
@@ -39,7 +40,7 @@ std::vector<double> legendre(double u, int degree) {
   return p;
 }
 
-/// `values` mapped onto [-1, 1]; zeros when they are all the same.
+/// `values` mapped onto [-1, 1]; zeros if all are equal.
 std::vector<double> onto_unit(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax_element(values);
   std::vector<double> unit(values.size(), 0.0);
@@ -50,7 +51,7 @@ std::vector<double> onto_unit(const std::vector<double>& values) {
   return unit;
 }
 
-/// (part of `sorted` that is at least `value`, with the data themselves counted)
+/// The fraction of `sorted` that is at least `value`, counting the data themselves.
 double upper_share(const std::vector<double>& sorted, double value) {
   const auto below = std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
   const auto n = static_cast<double>(sorted.size());
@@ -110,10 +111,10 @@ bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column
   return true;
 }
 
-/// A function is a slope times one number for each kind of impact, and so is what is left of it.
-/// The slopes in the Jacobian and in what whitens differ from these by rounding, which grows
-/// tenfold from one power of ln V to the next until it follows the readings themselves: it is taken
-/// out.
+/// Projects a function onto slopes times one number for each kind of impact, which is the exact
+/// form of every function. The slopes in the Jacobian and in the whitening differ from these by
+/// rounding errors, which grow tenfold with each power of ln V until they follow the individual
+/// readings; the projection removes them.
 void StructureStatistics::keep_to_impacts(Column& column) const {
   std::vector<double> along(impact_.size(), 0.0), square(impact_.size(), 0.0);
   for (std::size_t i = 0; i < column.size(); ++i) {
@@ -128,8 +129,8 @@ void StructureStatistics::keep_to_impacts(Column& column) const {
   for (double& value : column) value /= length;
 }
 
-/// Weighs and whitens `column`, a discrepancy of e^2, and keeps what neither the model nor `into`
-/// can follow.
+/// Weights and whitens `column`, a discrepancy of e^2, and appends its part orthogonal to the model
+/// and to `into`. @return false if nothing is left
 bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
   for (std::size_t i = 0; i < column.size(); ++i) column[i] *= slopes_[i];
   settings_.whiten(column);
@@ -188,7 +189,8 @@ void StructureStatistics::add_local_functions(const Observations& data) {
     for (std::size_t k = 0; k < run.size(); ++k) {
       near_capture[run[k]] = std::exp(2.0 * (log_velocity.front() - log_velocity[k]));
     }
-    // Every family is orthogonal in itself (groups share no points but through the model).
+    // The functions of a family are orthogonal to each other (groups have no common points and are
+    // coupled only through the model).
     const std::vector<std::vector<Column>*> families = {&size_, &trend_, &curvature_};
     for (std::size_t degree = 0; degree < local.size(); ++degree) {
       take(std::move(local[degree]), *families[degree]);
@@ -256,7 +258,7 @@ bool StructureStatistics::asks(StructureQuestion question) const {
 
 namespace {
 
-/// The samples, 0 where a point is not used [samples x points].
+/// The samples, with 0 for points that are not used [samples x points].
 Eigen::MatrixXd matrix_of(const Samples& samples, const std::vector<bool>& used) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(samples.size()),
                       static_cast<Eigen::Index>(used.size()));
@@ -269,7 +271,7 @@ Eigen::MatrixXd matrix_of(const Samples& samples, const std::vector<bool>& used)
   return all;
 }
 
-/// Of every sample, the part of each column in it [samples x columns].
+/// The projection of every sample onto each column [samples x columns].
 Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
                             const std::vector<std::vector<double>>& columns) {
   Eigen::MatrixXd all(samples.cols(), static_cast<Eigen::Index>(columns.size()));
@@ -291,7 +293,7 @@ std::vector<PerValue<StructureQuestion, double>> StructureStatistics::operator()
     const Samples& residuals) const {
   Eigen::MatrixXd r = matrix_of(residuals, used_);
   const Eigen::ArrayXd square = r.rowwise().squaredNorm();
-  if (!stated_) {  // in units of their own size
+  if (!stated_) {  // in units of their root mean square
     const double dof = static_cast<double>(used_count_) - static_cast<double>(model_.size());
     const Eigen::ArrayXd scale = (square / std::max(dof, 1.0)).sqrt();
     for (Eigen::Index b = 0; b < r.rows(); ++b) {

@@ -14,7 +14,7 @@ namespace recoil {
 
 using Samples = std::vector<std::vector<double>>;  ///< residuals of many data sets
 
-/// A question put to the residuals, see `StructureStatistics`.
+/// A test of the residuals, see `StructureStatistics`.
 enum class StructureQuestion { scatter, size, trend, curvature, capture, runs, smooth };
 template <>
 struct NamesOf<StructureQuestion> {
@@ -22,61 +22,61 @@ struct NamesOf<StructureQuestion> {
                                                             "capture", "runs", "smooth"};
 };
 
-/// What the residuals answer to one question.
+/// The result of one test.
 struct StructureTest {
   StructureQuestion question = StructureQuestion::scatter;
   double statistic = 0.0;
-  double p_value = 1.0;  ///< part of the simulated data sets that show as much
+  double p_value = 1.0;  ///< fraction of the simulated data sets with at least this statistic
 };
 
-/// What is systematic in the residuals of a fit.
+/// The systematic structure in the residuals of a fit.
 struct Structure {
   std::vector<StructureTest> tests;
-  double p_value = 1.0;  ///< of the most striking test, paid for having looked at all of them
-  int simulated = 0;     ///< data sets that calibrate it
-  int failed = 0;        ///< of these, without an answer
-  bool smooth = false;   ///< is it in the shape of the residuals, or only in their size?
+  double p_value = 1.0;  ///< of the most significant test, corrected for multiple tests
+  int simulated = 0;     ///< number of calibrating data sets
+  int failed = 0;        ///< number of these without a fit
+  bool smooth = false;   ///< true: in the shape of the residuals; false: only in their size
 };
 
 /// The statistics of `StructureTest`, for residuals in units of their standard deviation, whitened
-/// by what the fit says they share. Functions are whitened as they are.
+/// for the errors that they share in the fit. Functions are whitened in the same way.
 ///
 /// With groups g (the points of one diameter in one dataset, ordered by velocity) and P_k the
 /// Legendre polynomials over the ln V of a group, made orthonormal on its points:
-/// - scatter: sum r^2; only where standard deviations are stated, as it says nothing else
-/// elsewhere;
+/// - scatter: sum r^2; only if standard deviations are stated, else it has no information;
 /// - size: sum over g of (P_0 . r)^2; trend: of (P_1 . r)^2; curvature: of (P_2 . r)^2;
-/// - capture: (b . r)^2, b = (V_min / V)^2 in each group, all groups together;
-/// - runs: sum over neighbours of r_i r_(i+1), positive where residuals come in runs;
-/// - smooth: max over m of (T_m - m) / sqrt(2 m), T_m the part of sum r^2 in the first m of the
-///   functions P_j(ln V), P_j(ln V) ln d (j = 0, 1, ...; over all points), which is an adaptive
+/// - capture: (b . r)^2, b = (V_min / V)^2 in each group, for all groups together;
+/// - runs: sum over neighbours of r_i r_(i+1), positive if neighbouring residuals have the same
+///   sign;
+/// - smooth: max over m of (T_m - m) / sqrt(2 m), with T_m the part of sum r^2 along the first m of
+///   the functions P_j(ln V), P_j(ln V) ln d (j = 0, 1, ...; over all points), which is an adaptive
 ///   Neyman test (Fan 1996, J. Am. Stat. Assoc. 91, 674-688).
-/// A function is a discrepancy of e^2, weighted like the residuals, and the residuals of one
-/// velocity and size count together, by their mean. All functions are first freed of what the fit's
-/// own parameters can follow (the columns of its Jacobian), so that they ask only for what the
-/// model cannot do. A question of which nothing is left then is not asked: with no more distinct
-/// pairs of velocity and size than moving parameters none is, but for the scatter.
+/// A function is a discrepancy of e^2, weighted like the residuals; residuals of the same velocity
+/// and size enter through their mean. All functions are made orthogonal to the columns of the fit's
+/// Jacobian, so that they test only deviations that the parameters cannot fit. A test whose
+/// functions vanish is omitted: without more distinct pairs of velocity and size than moving
+/// parameters, only the scatter is tested.
 class StructureStatistics {
  public:
-  /// @param fitted whose Jacobian says what the model can follow
-  /// @param predicted e^2 of every point: a point that is captured in the data and in the model has
-  ///   no scatter and is left out
+  /// @param fitted the fit, whose Jacobian gives the deviations that the parameters can fit
+  /// @param predicted e^2 of every point: a point that is captured in the data and in the model
+  ///   does not scatter and is omitted
   StructureStatistics(const Observations& data, const Refit& fitted,
                       std::span<const double> predicted);
 
   PerValue<StructureQuestion, double> operator()(std::span<const double> residuals) const;
   std::vector<PerValue<StructureQuestion, double>> operator()(const Samples& residuals) const;
 
-  /// The projection of white noise onto what the fit leaves: what residuals look like where the
-  /// model is right, to first order.
+  /// The projection of white noise orthogonal to the fit's Jacobian: the residuals of a correct
+  /// model, to first order.
   std::vector<double> residuals_of_noise(std::span<const double> noise) const;
   Samples residuals_of_noise(const Samples& noise) const;
 
-  /// Can these points answer the question?
+  /// Do these points allow this test?
   bool asks(StructureQuestion question) const;
 
-  /// The free-form discrepancy that the smallest criterion T_m - 2 m chooses, as whitened residuals
-  /// [points]; empty when m = 0 is best.
+  /// The free-form discrepancy with the order m that maximises T_m - 2 m, as whitened residuals
+  /// [points]; empty if m = 0.
   std::vector<double> free_form(std::span<const double> residuals) const;
 
  private:
@@ -91,31 +91,32 @@ class StructureStatistics {
 
   bool stated_ = true;
   bool noise_known_ = true;
-  std::vector<double> slopes_;       // d residual / d e^2 [points]
-  std::vector<std::size_t> impact_;  // number of the series, size and velocity [points]
-  SharedSettings settings_;          // whiten functions as they did the residuals
-  std::shared_ptr<const Discrepancy> discrepancy_;  // likewise
+  std::vector<double> slopes_;  // d residual / d e^2 [points]
+  // Index of the combination of series, size and velocity [points].
+  std::vector<std::size_t> impact_;
+  SharedSettings settings_;                         // whiten functions like the residuals
+  std::shared_ptr<const Discrepancy> discrepancy_;  // also whitens functions
   std::vector<bool> used_;
   std::size_t used_count_ = 0;
-  std::vector<Column> model_;  // orthonormal, spans the Jacobian
-  // Groups: of each its velocities in ascending order, of each velocity its points.
+  std::vector<Column> model_;  // orthonormal basis of the Jacobian's columns
+  // [group][velocity, ascending][point]
   std::vector<std::vector<std::vector<std::size_t>>> runs_;
   std::vector<Column> size_, trend_, curvature_, capture_;
   std::vector<Column> smooth_;
 };
 
-/// p-values by comparison with statistics of simulated data sets: of each test, and of the
-/// smallest of these p-values among the smallest ones of the simulated sets.
+/// Computes p-values by comparison with simulated data sets: of each test, and of the smallest of
+/// these p-values compared with the smallest ones of the simulated sets.
 Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
                           const std::vector<PerValue<StructureQuestion, double>>& simulated);
 
-inline constexpr int quick_samples = 999;  ///< of white noise, for `quick_structure`
+inline constexpr int quick_samples = 999;  ///< number of white-noise samples for `quick_structure`
 
 /// Standard normal numbers; every sample has its own stream.
 Samples white_noise(int samples, std::size_t points, std::uint64_t seed);
 
-/// The structure in the residuals of `fitted`, beside samples of `noise` that go through the same
-/// projection: no refits, exact for a model that is linear over its errors.
+/// The structure in the residuals of `fitted`, compared with samples of `noise` after the same
+/// projection: without refits, exact for a model that is linear within its errors.
 Structure quick_structure(const Observations& data, const Refit& fitted,
                           std::span<const double> predicted, const Samples& noise);
 

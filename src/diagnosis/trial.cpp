@@ -43,7 +43,7 @@ void require_names(const Json& row, const std::vector<std::string>& names) {
 }
 namespace {
 
-constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
+constexpr double worth_releasing = 2.0;  // least gain of the criterion by released parameters
 
 MechanismKind kind_of(const std::vector<std::string>& ids) {
   MechanismKind kind = MechanismKind::measurement;
@@ -65,7 +65,7 @@ std::vector<double> predicted_squares(const Candidate& candidate, const Refit& r
 
 /// See `CandidateResult::remaining_part`.
 double part_left(const SearchBase& base, const CandidateResult& candidate) {
-  if (!base.fitted.data.sd_stated) return 1.0;  // how much misfit there is, is not known
+  if (!base.fitted.data.sd_stated) return 1.0;  // the size of the misfit is unknown
   const auto n = static_cast<double>(base.fitted.data.points.size());
   const double before = base.refit.chi2 - (n - base.candidate.free_count);
   const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
@@ -88,7 +88,7 @@ void find_parameters(const SearchBase& base, CandidateResult& result) {
   result.near_plausible = std::ranges::all_of(result.parameters, &FoundParameter::near_plausible);
 }
 
-/// What a fitted candidate is, `cost_of_possible` being known.
+/// The result of a fitted candidate, given its `cost_of_possible`.
 CandidateResult described(const SearchBase& base, Candidate candidate, Refit refit,
                           double cost_of_possible) {
   CandidateResult result;
@@ -100,7 +100,7 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
   return result;
 }
 
-/// Does the mechanism act otherwise in one series than in another?
+/// Can the mechanism act differently in different series?
 bool knows_series(const Mechanism& mechanism) {
   const auto& parameters = mechanism.info.parameters;
   return std::ranges::any_of(
@@ -126,11 +126,11 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
   if (!data.noise.known) return false;
   const std::vector<const Mechanism*> added = chain_of(candidate.added);
   const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
-  if (batch && series_count(data) < 2) return false;  // series differ from other series
+  if (batch && series_count(data) < 2) return false;  // a batch effect needs at least two series
   const bool by_series =
       std::ranges::any_of(added, [](const Mechanism* m) { return knows_series(*m); });
   std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
-  int says_more = 0;  // points with both rebounds and captures say two things
+  int says_more = 0;  // points with both rebounds and captures give two values
   for (const Observation& point : data.points) {
     impacts.insert({point.dataset, by_series ? point.series : 0, point.diameter, point.velocity});
     if (point.mixed()) ++says_more;
@@ -196,7 +196,7 @@ void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, i
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
                                const std::vector<std::string>& added,
                                const std::function<CandidateResult()>& make) {
-  // A row carries its names: numbers follow the order of the criterion.
+  // A row contains the names, because the index depends on the order by the criterion.
   const auto write = [&](const CandidateResult& c) {
     if (!c.refit.usable) return Json::array({added});
     const Json aside = c.set_aside ? Json(name_of(*c.set_aside)) : Json(nullptr);
@@ -240,10 +240,11 @@ namespace {
 
 constexpr int tries_alone = 4;
 
-constexpr double least_effect = 0.01;  // of a standard deviation of the point it moves most
+// Least effect, in standard deviations of the most affected point.
+constexpr double least_effect = 0.01;
 
-/// Can the mechanism move any residual by `least_effect`, with its parameters at their start and
-/// each at either end of what it can be?
+/// Can the mechanism change any residual by `least_effect`, with its parameters at their start or
+/// one of them at either end of its allowed range?
 bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candidate& candidate,
                 const std::vector<double>& near) {
   const ImpactModel& model = candidate.model;
@@ -253,7 +254,7 @@ bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candid
   const auto moves = [&](const std::vector<double>& theta) {
     const std::vector<Prediction> acted = predict(model, theta, candidate.impacts, false);
     for (std::size_t i = 0; i < acted.size(); ++i) {
-      if (!acted[i].usable() || !plain[i].usable()) return true;  // only a fit can tell
+      if (!acted[i].usable() || !plain[i].usable()) return true;  // only a fit can show the effect
       const double r = weighted_residual(data.points[i], acted[i].restitution_squared).value;
       const double before = weighted_residual(data.points[i], plain[i].restitution_squared).value;
       if (std::abs(r - before) >= least_effect) return true;
@@ -274,7 +275,7 @@ bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candid
   return false;
 }
 
-/// One mechanism of the catalogue; without a usable refit where it cannot be fitted.
+/// Fits one mechanism of the catalogue; the refit is not usable if it cannot be fitted.
 CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
                            Candidate candidate) {
   if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return {};
@@ -299,7 +300,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
   for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
-    // Counts of captures have told the base model already how the impacts differ.
+    // The base model already has a spread of the impacts from the counts of captures.
     if (mechanism->spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
     untried.push_back(mechanism);
   }

@@ -13,29 +13,33 @@ namespace recoil {
 namespace {
 
 constexpr int tries_in_pairs = 2;
-constexpr double followed_within = 30.0;  // of the best pair at the first look, a pair is followed,
-constexpr double followed_part = 0.2;     // or within this part of what that one gains
-constexpr double carried_part = 0.1;  // what each of two has to take, for the two to be forgiven
+// A pair is followed if its criterion at the first look is within `followed_within` of the best,
+// or within the fraction `followed_part` of the gain of the best.
+constexpr double followed_within = 30.0;
+constexpr double followed_part = 0.2;
+// Least part of the misfit that each of a pair must explain if structure is left.
+constexpr double carried_part = 0.1;
 
 /// Does a free parameter of an added mechanism rest on a bound? Exponents may.
 bool rests_on_the_edge(const CandidateResult& result) {
   for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
     const ParameterSlot& slot = result.candidate.model.slots[j];
-    // One that the catalogue holds fixed may rest there.
+    // A released parameter may rest on a bound.
     const bool own = result.candidate.adds(slot) && slot.parameter->free;
     if (own && slot.free && !result.refit.moving[j]) return true;
   }
   return false;
 }
 
-/// Two mechanisms at once as a first look has them: nothing released, and the errors of laws seen
-/// where the descents without them end.
+/// The first look at a pair: no released parameters, and the errors of laws are applied only at the
+/// end of descents without them.
 struct FirstLook {
   const CandidateResult* first = nullptr;
   const CandidateResult* second = nullptr;
   Candidate both{};
   Refit refit{};
-  /// Change of the criterion at most: two do no worse than the better one alone.
+  /// An upper limit of the change of the criterion: a pair is no worse than the better mechanism
+  /// alone.
   double delta_aicc = INFINITY;
 };
 
@@ -43,7 +47,7 @@ std::vector<std::string> names_of(const FirstLook& look) {
   return {look.first->candidate.added.front(), look.second->candidate.added.front()};
 }
 
-/// Fits both by a descent from the fit of either alone.
+/// Fits the pair by descents from the fits of either alone.
 void look_at(const SearchBase& base, FirstLook& look) {
   const Observations& data = base.fitted.data;
   if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
@@ -63,7 +67,7 @@ void look_at(const SearchBase& base, FirstLook& look) {
       look.delta_aicc, corrected_criterion(data, seen, look.both.free_count) - base.criterion);
 }
 
-/// Takes the first look from the kept rows, or makes it.
+/// Reads the first look from the kept rows, or computes it.
 void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
   const std::vector<std::string> names = names_of(look);
   look.both = make_candidate(base.spec, base.datasets, names, false, true);
@@ -83,9 +87,10 @@ void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
       base.options.kept.get(), number_of(base.options, KeptPiece::look, k), make, write, read);
 }
 
-/// A pair that is further behind at the first look does not come near the best in the end: of 460
-/// pairs for wall1990-molybdenum and wall1990-silicon none gained more than a third of its change
-/// of the criterion by what follows, and none of the best ten more than a twentieth.
+/// The criterion up to which a pair is followed. A pair that is further behind at the first look
+/// does not become one of the best: of 460 pairs for wall1990-molybdenum and wall1990-silicon, the
+/// later steps improved none by more than a third of its change of the criterion, and none of the
+/// best ten by more than a twentieth.
 double worth_following(const std::vector<FirstLook>& looks) {
   double best = 0.0;
   for (const FirstLook& look : looks) best = std::min(best, look.delta_aicc);
@@ -108,7 +113,7 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   CandidateResult result = examine(base, std::move(look.both), std::move(refit));
   try_released(base, result, tries_in_pairs);
   find_what_is_left(base, result);
-  // Each has to carry its part.
+  // Each of the two must contribute.
   const double better = std::min(first.delta_aicc, second.delta_aicc);
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
   if (possible && !(result.delta_aicc < better - base.options.margin_in_pairs)) {

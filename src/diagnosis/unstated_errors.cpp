@@ -26,15 +26,15 @@ constexpr double highest_of_steps = 15.0;
 constexpr double coherent = 0.9;
 constexpr std::size_t fewest_heights = 4;
 
-/// How often a step goes into the heights of the rebounds of one size and velocity.
+/// Sums over the rebounds of one size and velocity, for the coherence of their heights with a step.
 struct Heights {
-  double sum = 0.0;      ///< of the heights [m]
-  double cosines = 0.0;  ///< of 2 pi h / step
+  double sum = 0.0;      ///< sum of the heights [m]
+  double cosines = 0.0;  ///< sum of cos(2 pi h / step)
   int count = 0;
 };
 
-/// The mean cosine of all sizes and velocities whose rebounds are low enough, each counting once; 0
-/// where there are too few.
+/// The mean cosine over all sizes and velocities whose rebounds are low enough, with equal weights;
+/// 0 if there are too few.
 double coherence(const Dataset& dataset, double step) {
   std::map<std::pair<double, double>, Heights> places;
   for (const ImpactPoint& point : dataset.points) {
@@ -77,21 +77,20 @@ double height_step(const std::vector<Dataset>& datasets) {
 }
 namespace {
 
-constexpr double smallest_error = 0.002;  // of a velocity, relative
+constexpr double smallest_error = 0.002;  // relative error of a velocity
 constexpr double largest_error = 0.15;
-constexpr double smallest_reading = 2e-4;        // of a height or a time, over the middle one
-constexpr double smallest_setting_error = 2e-4;  // of e
+constexpr double smallest_reading = 2e-4;        // error of a height or a time, over the median one
+constexpr double smallest_setting_error = 2e-4;  // error of e [1]
 constexpr int steps = 15;
 
-/// Standard deviation of the e^2 of a point that rebounded, with what the errors of V and d make of
-/// it [1].
+/// Standard deviation of the e^2 of a point that rebounded, including the errors of V and d [1].
 double square_sd(const Observation& point) {
   const double e = point.restitution;
   if (point.weights.mean_sd > 0.0) return 2.0 * e * point.weights.mean_sd;
   return std::hypot(std::max(2.0 * e, point.weights.sd) * point.weights.sd, point.weights.input_sd);
 }
 
-/// -2 ln likelihood of a fit whose weights are a part of the question, but for a constant.
+/// -2 ln likelihood of a fit up to a constant, including the terms that depend on the weights.
 double deviance_with_weights(const Observations& data, std::span<const double> residuals) {
   double sum = SharedSettings(data.points).log_determinant();
   for (std::size_t i = 0; i < data.points.size(); ++i) {
@@ -106,8 +105,8 @@ double deviance_with_weights(const Observations& data, const Refit& refit) {
   return deviance_with_weights(data, refit.residuals) + refit.discrepancy->log_determinant();
 }
 
-/// Part of normal samples through the same projection whose fourth moment, beside the square of the
-/// second, is as large: a few points far off are not errors that all points have.
+/// The fraction of normal samples, after the same projection, with at least this ratio of the
+/// fourth moment to the square of the second: a few outlying points are not an error of all points.
 double tails_p(const StructureStatistics& statistics, std::span<const double> residuals,
                const Samples& noise) {
   const auto tails = [](std::span<const double> r) {
@@ -134,7 +133,7 @@ double remaining_p(const SearchBase& base, const Observations& data, const Refit
   return std::min(1.0, 2.0 * std::min(structure, tails));
 }
 
-/// The fit under the noise with which `datasets` and `noise` say that the points of `base` came.
+/// The fit of the base model under the errors of `datasets` and `noise`.
 FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets, NoiseSpec noise) {
   if (base.fitted.data.shares_settings()) noise.setting_sd = base.fitted.data.noise.setting_sd;
   FitOptions options;
@@ -157,7 +156,7 @@ double reading_of(const ImpactPoint& point, ErrorSource source) {
              : 2.0 * point.restitution * point.incident_velocity / standard_gravity;
 }
 
-/// sd of e over that of a reading [1/m or 1/s].
+/// The sd of e over the sd of a reading [1/m or 1/s].
 double slope_of_reading(const ImpactPoint& point, ErrorSource source) {
   const double e = point.restitution;
   const double v = point.incident_velocity;
@@ -178,16 +177,16 @@ FitResult fit_with_reading_errors(const SearchBase& base, ErrorSource source, do
   return fit_under(base, datasets, base.spec.noise);
 }
 
-/// The abscissa of the minimum of the parabola through three equidistant points; the middle one
-/// where they do not enclose it.
+/// The abscissa of the minimum of the parabola through three equidistant points; the middle point
+/// if they do not enclose it.
 double vertex(double middle, double step, double before, double at, double after) {
   const double curvature = before - 2.0 * at + after;
   if (!(curvature > 0.0)) return middle;
   return middle + step * std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
 }
 
-/// The error from `least` to `most` at which `cost` is smallest, by the parabola through the best
-/// three of a grid; nullopt where it is on the edge of the grid.
+/// The error in [least, most] with the smallest `cost`, from the parabola through the best three
+/// points of a grid; nullopt if it is at an end of the grid.
 template <class Cost>
 std::optional<double> best_error(const SearchBase& base, double least, double most,
                                  const Cost& cost) {
@@ -203,7 +202,7 @@ std::optional<double> best_error(const SearchBase& base, double least, double mo
   return std::exp(vertex(middle, step, costs[best - 1], costs[best], costs[best + 1]));
 }
 
-/// Errors of the size that makes the data most likely.
+/// The errors of the size that maximises the likelihood of the data.
 template <class FitWith>
 std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource source, double least,
                                         double most, const FitWith& fit_with) {
@@ -239,7 +238,7 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
                    [&](double sd) { return fit_with_velocity_errors(base, sd); });
 }
 
-/// What the instrument of all datasets reads; none where they have no such scale in common.
+/// The quantity that the instrument of all datasets reads; nullopt without a common one.
 std::optional<ErrorSource> readings_of(const std::vector<Dataset>& datasets) {
   const auto all_by = [&](Method method) {
     return std::ranges::all_of(datasets,
@@ -271,7 +270,7 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   const auto dof = static_cast<double>(base.fitted.dof);
   if (dof < 1.0 || chi2 <= dof) return std::nullopt;
   const int free = base.candidate.free_count;
-  const double n = dof + free;  // points that scatter
+  const double n = dof + free;  // number of points that scatter
   UnstatedErrors found;
   found.source = ErrorSource::larger_deviations;
   found.value = std::sqrt(chi2 / dof);
@@ -283,8 +282,8 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   return found;
 }
 
-/// What an error of e of size `sd`, shared by the points of each setting, adds to the residuals,
-/// beside what the fit says that they share.
+/// The columns of the residuals [points x settings] for an error of e of size `sd` that the points
+/// of each setting share, whitened for the shared errors of the fit.
 Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
   const Observations& data = base.fitted.data;
   std::map<std::size_t, Eigen::Index> place;
@@ -310,7 +309,7 @@ bool has_settings_of_several_points(const Observations& data) {
       data.points, [&](const Observation& point) { return !seen.insert(point.setting).second; });
 }
 
-/// The base model refitted with what its laws and the settings share.
+/// Refits the base model under the errors of its laws and a shared error of settings of size `sd`.
 Refit fit_with_settings(const SearchBase& base, double sd) {
   const Observations& data = base.fitted.data;
   const auto laws = law_error_columns(base.candidate, data, base.refit.theta, base.laws);
@@ -325,7 +324,7 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.setting_velocity_stated) {
-    return std::nullopt;  // it is stated
+    return std::nullopt;  // the error is stated
   }
   if (!has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;

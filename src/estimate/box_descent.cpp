@@ -8,15 +8,16 @@
 namespace recoil {
 namespace {
 
-// As Ceres has them: what part of the promised decrease a step has to keep, and the radii.
+// The defaults of Ceres: the least ratio of actual to promised decrease of an accepted step, and
+// the limits of the trust-region radius.
 constexpr double least_decrease = 1e-3;
 constexpr double least_radius = 1e-32;
 constexpr double largest_radius = 1e16;
-constexpr double shortest_column = 1e-3;  // of D
+constexpr double shortest_column = 1e-3;  // lower limit of the entries of D
 
-/// The d that minimises |R d + c|^2 within low <= d <= high, low <= 0 <= high: from d = 0 along the
-/// steps of the parameters that are free, each up to the first bound that it meets, which is held
-/// until the slope pulls back inside (an active-set method).
+/// Minimises |R d + c|^2 within low <= d <= high, where low <= 0 <= high, by an active-set method.
+/// It starts at d = 0 and steps along the free parameters up to the first bound that it meets. The
+/// parameter there is held until the gradient points back inside.
 class BoxedStep {
  public:
   BoxedStep(const Eigen::MatrixXd& R, const Eigen::VectorXd& c, const Eigen::VectorXd& low,
@@ -37,7 +38,7 @@ class BoxedStep {
  private:
   Eigen::VectorXd slope() const { return R_.transpose() * (R_ * d_ + c_); }
 
-  /// Is d_k at a bound that a fall along -slope would leave?
+  /// Is d_k at a bound that a step along -slope would cross?
   bool pushed_out(Eigen::Index k, double slope) const {
     return (d_(k) <= low_(k) && slope >= 0.0) || (d_(k) >= high_(k) && slope <= 0.0);
   }
@@ -49,8 +50,8 @@ class BoxedStep {
     }
   }
 
-  /// Goes to the minimum over what is not held, or to the first bound on the way, which is held
-  /// from then on. @return whether it got there
+  /// Moves to the minimum over the free parameters, or to the first bound on the way and holds the
+  /// parameter there. @return whether it reached the minimum
   bool step_of_free(std::vector<bool>& held) {
     std::vector<Eigen::Index> free;
     for (Eigen::Index k = 0; k < d_.size(); ++k) {
@@ -81,7 +82,8 @@ class BoxedStep {
     return false;
   }
 
-  /// Lets go of what is held against the steepest slope inwards.
+  /// Releases the held parameter with the steepest slope towards the inside. @return whether there
+  /// is one
   bool release_one(std::vector<bool>& held) const {
     const Eigen::VectorXd at = slope();
     Eigen::Index most = -1;
@@ -101,7 +103,7 @@ class BoxedStep {
   Eigen::VectorXd d_;
 };
 
-/// The descent, in ln theta where the problem asks for that.
+/// The descent, in ln theta for parameters with `log_scale`.
 class BoxDescent {
  public:
   BoxDescent(const LeastSquaresProblem& problem, std::span<const double> start,
@@ -140,7 +142,8 @@ class BoxDescent {
       LeastSquaresResult trial = moved(d);
       const Eigen::VectorXd expected = residuals_ + jacobian_ * d;
       const double promised = result_.sum_of_squares - expected.squaredNorm();
-      // What the step leaves of the way is as much shorter as this step is than the one before.
+      // Geometric extrapolation: the ratio of the remaining decrease to that of this step equals
+      // the ratio of this step's decrease to that of the step before.
       const double left = promised_before > 0.0 ? promised * promised / promised_before : promised;
       if (!options.finish && std::max(left, 0.0) / std::pow(options.close_enough, 2) <=
                                  expected.squaredNorm() / freedom) {
@@ -194,7 +197,8 @@ class BoxDescent {
     return problem_.log_scale[j] ? std::log(theta) : theta;
   }
 
-  /// Residuals, Jacobian, place and room in the coordinates of the free parameters.
+  /// Sets residuals, Jacobian, position and distances to the bounds in the coordinates of the free
+  /// parameters.
   void linearise() {
     const auto n = static_cast<Eigen::Index>(result_.residuals.size());
     const auto q = static_cast<Eigen::Index>(free_.size());
@@ -217,7 +221,7 @@ class BoxDescent {
     }
   }
 
-  /// Of the gradient, as far as the bounds let it be followed.
+  /// Largest component of the gradient, projected onto the bounds.
   double largest_slope() const {
     const Eigen::ArrayXd slope = (jacobian_.transpose() * residuals_).array();
     return (-slope).max(low_.array()).min(high_.array()).abs().maxCoeff();

@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-/// V*^2 to first order in the dampings: where the search starts.
+/// V*^2 [m2/s2] to first order in the dampings: the start of the search.
 double weakly_damped_square(const ImpactModel& model, const ImpactConditions& c) {
   return traits(model.adhesion)
       .capture_square(c.hertz_damping, c.adhesion_damping,
@@ -17,9 +17,9 @@ double weakly_damped_square(const ImpactModel& model, const ImpactConditions& c)
 
 /// The search for one capture velocity, one evaluation of e^2 at a time.
 ///
-/// Newton on e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping, as
-/// the energy that is lost hardly depends on V near capture; bisection where that leaves the
-/// bracket.
+/// Newton's method on e^2 V^2 as a function of V^2. It is nearly a straight line of slope 1 for
+/// weak damping, because the energy loss hardly depends on V near capture. Bisection where a Newton
+/// step leaves the bracket.
 class CaptureSearch {
  public:
   CaptureSearch(const ImpactModel& model, std::span<const double> theta, const CaptureQuery& query)
@@ -29,11 +29,11 @@ class CaptureSearch {
     scale_ = adhesion_velocity(c);
     extended_ = !model.chain.empty();
     if (extended_) {
-      // Mechanisms may capture what the base model lets go.
+      // Mechanisms may capture spheres that rebound in the base model.
       if (!(scale_ > 0.0)) scale_ = 1.0;
     } else if (!(scale_ > 0.0) || (!traits(model.adhesion).jumps && c.hertz_damping == 0.0 &&
                                    c.adhesion_damping == 0.0)) {
-      result_.found = true;  // conservative: everything comes back
+      result_.found = true;  // no loss: every sphere rebounds
       done_ = true;
       return;
     }
@@ -46,7 +46,7 @@ class CaptureSearch {
   PointConditions next() const { return {query_.dataset, query_.diameter, std::sqrt(square_)}; }
   const CaptureVelocity& result() const { return result_; }
 
-  /// Takes in point `i` of an evaluation at next().
+  /// Updates the bracket with point `i`, evaluated at next().
   void learn(const PointPredictor& predictor, std::size_t i) {
     const ImpactResult& impact = predictor.at(i);
     done_ = !impact.usable() || ++iterations_ == most_iterations;
@@ -67,7 +67,7 @@ class CaptureSearch {
       }
     }
     if (extended_ && rebound_seen_ && captured_ == 0.0 && next < lowest * scale_ * scale_) {
-      result_.found = true;  // everything comes back
+      result_.found = true;  // every sphere rebounds
       done_ = true;
       return;
     }
@@ -84,7 +84,8 @@ class CaptureSearch {
  private:
   static constexpr int most_iterations = 60;
   static constexpr double convergence = 2e-9;  // of V^2
-  // V^2 / V_a^2 of a sphere at rest: the error of e^2, 1e-10 of the depth of the well, is 1 % here.
+  // V^2 / V_a^2 below which a sphere counts as at rest: the error of e^2, 1e-10 of the depth of the
+  // well, is 1 % here.
   static constexpr double lowest = 1e-8;
 
   CaptureQuery query_;
@@ -94,7 +95,7 @@ class CaptureSearch {
   double captured_ = 0.0;  // largest V^2 seen that is captured
   double rebounds_ = 0.0;  // smallest V^2 seen that rebounds
   bool rebound_seen_ = false;
-  bool extended_ = false;  // mechanisms act
+  bool extended_ = false;  // true: mechanisms act
   bool done_ = false;
   int iterations_ = 0;
 };

@@ -24,9 +24,9 @@ namespace recoil {
 
 namespace {
 
-// A chi-squared less likely than this under the stated noise widens every interval.
+// If the p-value of chi-squared under the stated noise is below this, every interval is widened.
 constexpr double misfit_level = 0.01;
-// One less likely than this is worth a word, but may well be chance.
+// Below this p-value the fit is called doubtful; chance may explain it.
 constexpr double doubtful_level = 0.05;
 // Two minima within this relative difference of chi2 are a tie, if their parameters differ.
 constexpr double tie_tolerance = 1e-6;
@@ -36,7 +36,7 @@ std::string describe_point(const Observation& point) {
                      point.velocity);
 }
 
-/// The first point that the model cannot answer at `theta`, in words.
+/// Names the first point whose impact cannot be solved at `theta`, and the reason; "" without one.
 std::string unanswered_point(const ImpactModel& model, const Observations& data,
                              std::span<const double> theta) {
   const std::vector<Prediction> predictions = predict(model, theta, data.conditions(), false);
@@ -72,7 +72,8 @@ void record_leverage(FitResult& result, const std::vector<double>& jacobian,
           : leverages(std::span(jacobian).first(n * result.theta.size()), unscaled_covariance);
 }
 
-/// Decides what the standard deviations are worth.
+/// Compares the scatter of the points with their standard deviations: sets the verdict, the noise
+/// scale and the degrees of freedom.
 void judge_noise(FitResult& result, const Misfit& misfit) {
   result.dof = misfit.dof;
   result.p_value = misfit.p_value;
@@ -92,7 +93,8 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   if (result.noise_verdict == NoiseVerdict::estimated) {
     result.noise_scale = std::max(
         result.noise_scale, std::min(1.0, result.data.noise.rounding_sd / result.data.noise.scale));
-    // What the points say of the constants they do not say of their noise.
+    // The degrees of freedom by which the points determine the constants do not determine the
+    // noise.
     result.dof -= static_cast<int>(std::lround(misfit.learned));
   }
   NoiseModel& noise = result.data.noise;
@@ -108,8 +110,9 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   };
   if (!result.data.sd_stated) known_by(result.dof);
   if (noise.event_spread > 0.0) {
-    // The spread of the impacts is known by those that lie where some of them stick, and by single
-    // ones as far as their variance comes from it (Satterthwaite 1946, Biometrics Bull. 2, 110).
+    // Degrees of freedom of the spread of the impacts: those in the range where some spheres stick
+    // count, and single impacts in proportion to the part of their variance that comes from the
+    // spread (Satterthwaite 1946, Biometrics Bull. 2, 110).
     const std::vector<bool> among = among_captures(result.data.points);
     double impacts = 0.0;
     for (std::size_t i = 0; i < among.size(); ++i) {
@@ -133,7 +136,7 @@ double squared_miss(const Observation& point, double predicted_squared) {
   return std::pow(measured - expected_restitution(point, predicted_squared), 2);
 }
 
-/// Of points whose rebounds have a known e; NaN without any.
+/// Root mean square of e - e_model over the points with a known e; NaN without any.
 double root_mean_square(const FitResult& result) {
   double sum = 0.0;
   int count = 0;
@@ -145,7 +148,7 @@ double root_mean_square(const FitResult& result) {
   return count > 0 ? std::sqrt(sum / count) : NAN;
 }
 
-/// Everything at the end of a descent.
+/// Copies the end of a descent into the result and computes the predictions there.
 void take_over(FitResult& result, const LeastSquaresResult& run) {
   const std::size_t n = result.data.points.size();
   result.theta = run.theta;
@@ -166,12 +169,13 @@ Misfit misfit_of(const FitResult& result, const LeastSquaresResult& run) {
                 constants_in_fit(run, result.model.adjusted_count(), result.data.constants_weight));
 }
 
-/// The points' standard deviations are too small by noise_scale, those of the constants are not:
-/// against wider points the constants weigh more. In turns until neither moves.
+/// Repeats the fit with `constants_weight` = noise_scale until noise_scale does not change: the
+/// standard deviations of the points are too small by noise_scale, those of the constants are not.
+/// @return false if a fit failed
 bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
                               const LeastSquaresOptions& options) {
   constexpr int most_rounds = 20;
-  constexpr double at_rest = 1e-4;  // of the scale
+  constexpr double at_rest = 1e-4;  // relative change of the scale
   for (int round = 0; round < most_rounds; ++round) {
     result.data.constants_weight = result.noise_scale;
     ReweightedFit again =
@@ -189,7 +193,7 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
   return true;
 }
 
-/// Where the errors of V and d are too large for an effective variance of first order.
+/// Counts the points whose errors of V and d are too large for a first-order effective variance.
 int count_strained(const std::vector<Observation>& points) {
   return static_cast<int>(std::count_if(points.begin(), points.end(), [](const Observation& p) {
     const PointWeights& w = p.weights;
@@ -222,9 +226,9 @@ void compare_starts(FitResult& result, std::size_t best_start) {
   }
 }
 
-/// Where a mechanism of the model, or the sizes that a dataset states, say how the impacts of a
-/// point differ, its survivors are what the mean e is of: their spread must not be estimated a
-/// second time from the counts.
+/// Removes counts of captures where a mechanism of the model, or the sizes that a dataset states,
+/// describe how the impacts of a point differ. The mean e there is that of the survivors, so the
+/// spread of the impacts must not be estimated a second time from the counts.
 void leave_out_explained_counts(const ImpactModel& model, FitResult& result) {
   const auto found = std::find_if(model.chain.begin(), model.chain.end(),
                                   [](const Mechanism* mechanism) { return mechanism->spreads(); });
@@ -240,7 +244,7 @@ void leave_out_explained_counts(const ImpactModel& model, FitResult& result) {
   if (counts > 0) result.unused_counts = {by, counts};
 }
 
-/// `fit` on the threads of the arena that asks.
+/// `fit` on the threads of the caller's arena.
 FitResult fitted_here(const ImpactModel& model, Observations&& observed,
                       const FitOptions& options) {
   FitResult result;
@@ -327,13 +331,13 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   return result;
 }
 
-// More points than this are searched by a part of them, half as many or fewer: the starts need a
-// rough answer each, and all points only the last steps.
+// With more points than `many_points`, the descents from the starts use 250 to 374 of them: a rough
+// answer is enough to compare starts, and only the last steps need all points.
 constexpr std::size_t many_points = 500;
 constexpr std::size_t searched_of_many = 250;
 
-/// Adds `first` with the damping factors ten times smaller and larger in all combinations: capture
-/// and strong damping make flat and non-convex regions on either side.
+/// Adds `first` with the damping factors multiplied by 0.1, 1 and 10 in all combinations: capture
+/// and strong damping create flat and non-convex regions around the minimum.
 void add_dampings(const ImpactModel& model, const std::vector<double>& first,
                   std::vector<std::vector<double>>& starts) {
   for (const double hertz : {0.1, 1.0, 10.0}) {
@@ -354,9 +358,9 @@ void add_dampings(const ImpactModel& model, const std::vector<double>& first,
   }
 }
 
-/// The stated start and other dampings; the same about the dampings of the catalogue, where the
-/// stated ones are more than ten times another; then what the catalogue of mechanisms advises, one
-/// parameter at a time.
+/// The stated start, with other dampings; the same around the dampings of the catalogue if a stated
+/// one differs from these by more than a factor of ten; then the starts that the catalogue of
+/// mechanisms lists, one parameter at a time.
 std::vector<std::vector<double>> starting_points(const ImpactModel& model,
                                                  const std::vector<double>& first, bool several) {
   std::vector<std::vector<double>> starts = {first};
@@ -401,9 +405,9 @@ std::vector<std::size_t> spread_part(const std::vector<Observation>& points) {
   return part;
 }
 
-/// The points that the starts use, where these are not all of `data`. A mean of survivors lies far
-/// above the curve until the scatter of the impacts is known, so points with rebounds and captures
-/// wait for `reweighted_fit`, if the others suffice.
+/// The points that the descents from the starts use; nullopt for all. Until the scatter of the
+/// impacts is known, a mean of survivors lies far above the curve, so points with rebounds and
+/// captures are left to `reweighted_fit` if the other points suffice.
 std::optional<Observations> searched_part(const Observations& data, std::ptrdiff_t free_count) {
   const std::vector<bool> mixed = among_captures(data.points);
   std::ptrdiff_t rebounds = 0;
@@ -425,7 +429,8 @@ std::optional<Observations> searched_part(const Observations& data, std::ptrdiff
   return data.subset(used);
 }
 
-/// Is the end of `run` another place than that of `best`, in its standard errors?
+/// Do the parameters of `run` differ from those of `best` by more than a tenth of their standard
+/// errors?
 bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& best) {
   const std::size_t p = run.theta.size();
   for (std::size_t j = 0; j < p; ++j) {
@@ -436,8 +441,8 @@ bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& bes
   return false;
 }
 
-/// Goes on from where the iterations of a start ran out, if that is better than where any ended: by
-/// the other descent, and as long as it gains.
+/// Continues descents that reached the iteration limit with a smaller sum of squares than every
+/// finished descent: by box_descent, as long as the sum decreases.
 void finish_promising(const LeastSquaresProblem& problem, LeastSquaresOptions options,
                       std::vector<StartSummary>& starts, std::vector<StartLead>& ended) {
   constexpr int most_descents = 5;
@@ -461,7 +466,7 @@ void finish_promising(const LeastSquaresProblem& problem, LeastSquaresOptions op
 
 constexpr double stated_level = 0.05;
 constexpr double estimated_level = 0.01;
-constexpr double rejected = 0.05;  // p-value of a fit
+constexpr double rejected = 0.05;  // p-value below which a fit is rejected
 constexpr double fixed = 1e-9;     // 1 - h of a point that alone determines a parameter
 
 }  // namespace
@@ -517,7 +522,7 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
   search.points = seen.points.size();
   search.sampled = data.points.size() > many_points;
   const LeastSquaresProblem problem = impact_problem(model, seen, &search.handovers);
-  options.finish = false;  // only the best
+  options.finish = false;  // only the best run is refined
   std::vector<StartLead> ended;
   for (const std::vector<double>& start : starting_points(model, first, several)) {
     LeastSquaresResult run = minimise(problem, start, options);
@@ -533,8 +538,9 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
   std::iter_swap(ended.begin(), best);
   search.leads.push_back(std::move(ended.front()));
   if (!search.sampled) return search;
-  // Sums of squares that differ by D on average do so with a standard deviation of 2 sqrt(D): for
-  // the one that all points make the larger to be ahead by so much here takes seven of these.
+  // If the sums of squares over all points differ by D on average, a sample's difference has the
+  // standard deviation 2 sqrt(D). A minimum that is worse over all points is ahead by this much in
+  // the sample only if chance exceeds seven of these.
   constexpr double telling = 50.0;
   const double least = search.leads.front().run.sum_of_squares;
   const double noise = std::max(1.0, least / static_cast<double>(problem.residual_count));

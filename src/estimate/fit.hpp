@@ -13,154 +13,165 @@ namespace recoil {
 
 /// How one of several starts ended.
 enum class StartOutcome {
-  best,           ///< at the smallest chi2
-  same,           ///< at the same place as the best
-  tie,            ///< with the same chi2 elsewhere, see StartSummary::differing
-  worse,          ///< in a worse local minimum
-  flat,           ///< where the points do not depend on a parameter
-  not_converged,  ///< without an answer
+  best,           ///< reached the smallest chi2
+  same,           ///< reached the same parameters as the best
+  tie,            ///< reached the same chi2 at other parameters, see StartSummary::differing
+  worse,          ///< ended in a worse local minimum
+  flat,           ///< ended where the points do not depend on a parameter
+  not_converged,  ///< failed
 };
 
-/// Where one of several starts ended.
+/// The end of one of several starts.
 struct StartSummary {
   std::vector<double> start;
   std::vector<double> end;
   double chi2 = 0.0;
   DescentEnd ending = DescentEnd::no_answer;
-  std::string message;  ///< the minimiser's own words
+  std::string message;  ///< message of the minimiser
   StartOutcome outcome = StartOutcome::not_converged;
-  std::vector<std::size_t> differing = {};  ///< of a tie: the slots whose values differ
+  std::vector<std::size_t> differing = {};  ///< for a tie: the slots whose values differ
 
   bool converged() const { return ending == DescentEnd::minimum || ending == DescentEnd::valley; }
 };
 
-/// What the scatter of the points says of the standard deviations that they state.
+/// How the scatter of the points compares with their stated standard deviations.
 enum class NoiseVerdict {
-  unchecked,  ///< there are as many parameters as points, or nothing scatters about the fit
+  unchecked,  ///< no degrees of freedom are left, or the points do not scatter about the fit
   estimated,  ///< none are stated: the noise is estimated from the residuals
-  explained,  ///< they explain the scatter
-  doubtful,   ///< the scatter is at the edge of what chance makes of them
-  exceeded,   ///< it is larger: every error and interval is widened by FitResult::noise_scale
+  explained,  ///< the standard deviations explain the scatter
+  doubtful,   ///< p-value between 0.01 and 0.05: chance may explain the scatter
+  exceeded,   ///< the scatter is larger: every error and interval is widened by
+              ///< FitResult::noise_scale
 };
 
-/// Counts of captures that a fit does not use, as a mechanism says how the impacts of a point
-/// differ.
+/// Counts of captures that a fit does not use, because a mechanism, or the stated sizes, describe
+/// how the impacts of a point differ.
 struct UnusedCounts {
-  const Mechanism* mechanism = nullptr;  ///< null: the sizes that the datasets state
+  const Mechanism* mechanism = nullptr;  ///< null: the stated sizes of the datasets
   int points = 0;
 };
 
-/// Curvature over the errors of V and d from which on their effective variance is strained, in
-/// standard deviations of the point's e^2.
+/// `input_bias` above which the effective variance of a point is strained, in standard deviations
+/// of the point's e^2 [1].
 inline constexpr double strained_bias = 0.1;
 
 struct FitOptions {
   bool several_starts = true;
   std::vector<double> start;  ///< overrides the model's initial values when not empty
   LeastSquaresOptions minimiser;
-  int threads = 0;  ///< 0: those of the caller. Many points fly on several; no digit depends on it.
+  int threads = 0;  ///< 0: the caller's arena. Results do not depend on the number of threads.
 };
 
 /// The full least-squares fit.
 struct FitResult {
   bool usable = false;
-  std::string failure;  ///< for an error message: why not, and which point stood in the way
+  std::string failure;  ///< message: the reason, and the point that caused it
   ImpactModel model;
-  Observations data;  ///< the points with the weights that belong to this fit: what every refit,
-                      ///< profile and simulation starts from
+  Observations data;  ///< the points with the weights of this fit; refits, profiles and simulations
+                      ///< start from them
   std::vector<double> theta;                   ///< [slots]
   std::vector<bool> at_bound;                  ///< [slots]
-  DescentEnd ending = DescentEnd::minimum;     ///< of the last descent: minimum, valley or flat
-  Strategy strategy = Strategy::trust_region;  ///< that led there
-  std::vector<std::size_t>
-      flat;  ///< slots on which no point depends there; their values mean nothing
-  std::vector<double> covariance;         ///< [slots x slots]; scaled by noise_scale^2
-  std::vector<double> spread_covariance;  ///< in it, what not knowing event_spread adds; or empty
-  /// Of constants that fits do not move: [constant][slot] how far theta goes when the constant is
-  /// one standard deviation above what is stated. Their squares are in `covariance`.
+  DescentEnd ending = DescentEnd::minimum;     ///< end of the last descent: minimum, valley or flat
+  Strategy strategy = Strategy::trust_region;  ///< strategy of the last descent
+  /// Slots without effect on any point; their values are undetermined.
+  std::vector<std::size_t> flat;
+  std::vector<double> covariance;  ///< [slots x slots]; scaled by noise_scale^2
+  /// The part of `covariance` that the uncertainty of event_spread adds; or empty.
+  std::vector<double> spread_covariance;
+  /// For constants that fits do not move: the change of theta when the constant is one standard
+  /// deviation above its stated value [constant][slot]. `covariance` includes their outer products.
   std::vector<std::vector<double>> constant_effects;
   std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
-  std::vector<double> residuals;           ///< weighted, [points]
+  std::vector<double> residuals;           ///< weighted residuals [points]
   std::vector<double> prediction;          ///< e at each point [1]
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
-  double chi2 = 0.0;                       ///< sum of squares under the weights as stated, with the
-                                           ///< deviations of uncertain constants
-  double objective = 0.0;  ///< sum of squares at the minimum; differs from chi2 where the constants
-                           ///< have another weight (noise_scale != 1)
+  double chi2 = 0.0;       ///< sum of squares under the stated weights, including the deviations of
+                           ///< uncertain constants
+  double objective = 0.0;  ///< sum of squares at the minimum; differs from chi2 if noise_scale !=
+                           ///< 1, as the constants then have another weight
   int dof = 0;             ///< see Misfit
-  double p_value = 0.0;  ///< of the misfit; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
-  /// How far the uncertain constants of the materials went from what is stated, in standard
+  double p_value = 0.0;    ///< of the misfit, in [0, 1]; meaningless if !sd_stated
+  /// Deviations of the uncertain material constants from their stated values, in standard
   /// deviations [ImpactModel::constants].
   std::vector<double> constants_moved;
-  double rmse = 0.0;         ///< of e over all points that rebounded [1]
-  double noise_scale = 1.0;  ///< what the standard deviations of `data` are multiplied by in every
-                             ///< interval: 1 where they hold, or were estimated by this fit
-  /// Degrees of freedom of the Student's t whose quantiles make intervals of standard errors: of
-  /// the estimated error that is known least. 0: nothing is estimated, and they are normal.
+  double rmse = 0.0;         ///< root mean square of e - e_model over all points with a known e [1]
+  double noise_scale = 1.0;  ///< factor on the standard deviations of `data` in every interval; 1
+                             ///< if they explain the scatter or this fit estimated them
+  /// Degrees of freedom of Student's t, whose quantiles turn standard errors into intervals: those
+  /// of the estimated error with the fewest. 0: no error is estimated, and the quantiles are
+  /// normal.
   int quantile_dof = 0;
   NoiseVerdict noise_verdict = NoiseVerdict::unchecked;
-  int strained_points = 0;      ///< with an input_bias above `strained_bias`
-  bool weights_at_rest = true;  ///< false: the weights still moved when their rounds ran out
+  int strained_points = 0;      ///< points with an input_bias above `strained_bias`
+  bool weights_at_rest = true;  ///< false: the weights still changed in the last round
   std::optional<UnusedCounts> unused_counts;
-  long handovers = 0;  ///< impacts that the fast solver left to the reference
+  long handovers = 0;  ///< impacts that the fast solver handed to the reference
   std::vector<StartSummary> starts;
-  std::size_t searched_points = 0;  ///< on which the starts were compared, see `fit`
+  std::size_t searched_points = 0;  ///< points on which the starts were compared, see `fit`
 
   /// @pre usable
   const StartSummary& best_start() const;
 };
 
 /// Fits the free parameters of `model` to all points at once from several starts, then once more
-/// together with the weights that depend on the fit (`reweighted_fit`). Of more than 500 points
-/// the starts see 10,000, spread evenly over the datasets, diameters and velocities; where they
-/// end, as far as these points cannot tell the ends apart, the fit to all points begins.
+/// together with the weights that depend on the fit (`reweighted_fit`). With more than 500 points
+/// the descents from the starts use 250 to 374 of them, spread evenly over datasets, diameters and
+/// velocities. The fit to all points continues from each of their minima that these points cannot
+/// distinguish from the best.
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});
 
-/// The dampings that rest on their upper bound: slots of C_H and C_A.
+/// The slots of C_H and C_A that rest on their upper bound.
 std::vector<std::size_t> held_back_dampings(const FitResult& fitted);
 
 /// Root mean square of e - e_model over the points whose index is in `subset` (all when empty);
-/// captured points count with e = 0, means of survivors beside `expected_restitution`.
+/// captured points count with e = 0, and means of survivors are compared with
+/// `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
                         const Observations& data, const std::vector<std::size_t>& subset = {});
 
-/// Where a start ended that may lead to the best fit.
+/// The end of a start from which the fit to all points continues.
 struct StartLead {
-  std::size_t start = 0;  ///< its place among the starts
+  std::size_t start = 0;  ///< index of the start
   LeastSquaresResult run;
 };
 
-/// What the descents from several starts found.
+/// Result of the descents from several starts.
 struct StartSearch {
   std::vector<StartSummary> starts;
-  std::size_t points = 0;  ///< that they saw
-  bool sampled = false;    ///< these were drawn from very many
-  /// The best of them, and where the points were sampled all that end elsewhere with a sum of
-  /// squares that these points cannot tell from the smallest. None where no descent ended.
+  std::size_t points = 0;  ///< number of points used
+  bool sampled = false;    ///< true: a subset of more than 500
+  /// The best run first. If the points are a subset, also every run that ended at other parameters
+  /// with a sum of squares that the subset cannot distinguish from the smallest. Empty if no
+  /// descent ended.
   std::vector<StartLead> leads;
-  long handovers = 0;  ///< impacts that the fast solver left to the reference
+  long handovers = 0;  ///< impacts that the fast solver handed to the reference
 };
 
-/// Descends from `first` and, with `several`, from the places about it where other minima are
-/// known to lie.
+/// Descends from `first` and, with `several`, from other dampings and from the starts that the
+/// catalogue of mechanisms lists.
 StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
                                const std::vector<double>& first, bool several,
                                LeastSquaresOptions options);
 
-/// A point without which the others fit.
+/// A point whose removal makes the model fit the others.
 struct OddPoint {
-  std::size_t index = 0;  ///< among the observations
-  double residual = 0.0;  ///< from what the others predict, in standard deviations
-  FitResult without;      ///< the fit to the others
+  std::size_t index = 0;  ///< index of the observation
+  /// Its deviation from the prediction of the others, in standard deviations.
+  double residual = 0.0;
+  FitResult without;  ///< the fit to the others
 };
 
-/// The point whose removal mends a fit. None unless more than one degree of freedom is left without
-/// it, and it lies further from what the others predict than one of all points does in one of
-/// twenty data sets (Bonferroni), by its residual r and leverage h: r / sqrt(1 - h) where standard
-/// deviations are stated, else the externally studentised r / (s_(i) sqrt(1 - h)) (Cook & Weisberg
-/// 1982, Residuals and Influence in Regression, section 2.2), at one of a hundred. Where they are
-/// stated, the fit to all has to be rejected at 5 %, and the fit to the others not.
+/// Finds the point whose removal makes a rejected fit acceptable. With residual r and leverage h,
+/// its deviation from what the others predict is
+/// - r / sqrt(1 - h) if standard deviations are stated,
+/// - else the externally studentised r / (s_(i) sqrt(1 - h)) (Cook & Weisberg 1982, Residuals and
+///   Influence in Regression, section 2.2).
+///
+/// Nullopt unless more than one degree of freedom is left without the point and the largest
+/// deviation among all points is significant (Bonferroni), at 5 % if standard deviations are
+/// stated, else at 1 %. If they are stated, the fit to all points must also be rejected at 5 % and
+/// the fit to the others not.
 std::optional<OddPoint> odd_point(const FitResult& fitted);
 
 }  // namespace recoil

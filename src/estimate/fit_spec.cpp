@@ -121,11 +121,11 @@ constexpr int fewest_replicates = 19;
 constexpr int most_replicates = 1000000;
 constexpr int fewest_own_designs = 20;
 
-// Larger than this an error is no error of the quantity but another quantity.
+// A larger relative error is refused: it would leave the quantity unknown.
 constexpr double largest_relative_sd = 0.5;
-// Beyond it Student's t is the normal distribution for every practical purpose.
+// Beyond it Student's t equals the normal distribution in practice.
 constexpr double largest_student_dof = 1000.0;
-// Of e: more than that is no error but another measurement.
+// A larger shared error of e is refused [1].
 constexpr double largest_setting_sd = 0.3;
 // From less than an atom to more than the range of any force between dry surfaces [m].
 constexpr double least_separation = 5e-11;
@@ -224,7 +224,7 @@ NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
   return spec;
 }
 
-/// A fit and where its dataset paths stand.
+/// A fit and the places of its dataset paths in the file.
 struct LocatedFit {
   FitSpec spec;
   std::vector<Location> dataset_places;
@@ -383,7 +383,7 @@ class FitReader : private TomlReader {
     mechanisms.push_back(id);
   }
 
-  /// A parameter of a mechanism that the fit does not name is a likely slip.
+  /// Refuses parameters of mechanisms that [model] does not name: a likely mistake.
   void refuse_parameters_of_others(const toml::table& parameters) const {
     for (const Mechanism& mechanism : mechanism_catalogue()) {
       const std::string id(mechanism.info.id);
@@ -404,7 +404,7 @@ class FitReader : private TomlReader {
     }
   }
 
-  /// f0 belongs to the ring law, W to the others.
+  /// Refuses W under the ring law and f0 under the others.
   void refuse_the_adhesion_of_other_laws(const toml::table& parameters) const {
     const AdhesionLaw law = fit_.spec.adhesion;
     const Parameter& right = base_parameters(law)[2];

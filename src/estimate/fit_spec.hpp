@@ -15,30 +15,30 @@
 
 namespace recoil {
 
-/// A key of a fit file, as a reader of the manual needs it.
+/// A key of a fit file, as the manual describes it.
 struct FitKey {
-  std::string_view table;  ///< "noise"; empty for those above all tables
+  std::string_view table;  ///< "noise"; empty for a key outside of all tables
   std::string_view name;   ///< "variance"
-  std::string standard;    ///< its default as the file would write it; empty where it needs one
+  std::string standard;    ///< its default as written in the file; empty if the key is required
   std::string_view meaning;
 };
 
-/// Every key of a fit file; `parameter` is the table of any single parameter. What stands here is
-/// what a fit file may have: its reader asks for no other.
+/// Every key of a fit file; `parameter` is the table of any single parameter. The reader accepts
+/// these keys only.
 const std::vector<FitKey>& fit_keys();
 
-/// The names of one table, in order.
+/// The names of the keys of one table, in order.
 std::vector<std::string> fit_keys_of(std::string_view table);
 
-/// How the standard deviation of a measured e depends on the predicted one. Except for `stated`,
-/// with one number s for all points, and n the rebounds that a point averages:
+/// How the standard deviation of a measured e depends on the predicted one. All but `stated` use
+/// one number s for all points and n, the number of rebounds that a point averages:
 ///   constant       sd = s / sqrt(n)
 ///   proportional   sd = s sqrt(e^2 + 0.1^2) / sqrt(n): relative noise, with a floor so that no
 ///                  point close to capture weighs without limit
 ///   capture        sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
-///                  to it: what comes of impacts that differ in the energy they lose
+///                  to it: for impacts that differ in their energy loss
 ///   steep          sd = s exp(2 (V* / V)^2) / sqrt(n): sevenfold at capture, 7 % more at 5 V*, and
-///                  so over a wider range than `capture`; V* to the first order in the damping
+///                  so over a wider range than `capture`; V* to first order in the damping
 /// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family,
 /// steep an exponential of a variable of the design (both: Carroll & Ruppert 1988, Transformation
 /// and Weighting in Regression, chapter 3).
@@ -52,18 +52,18 @@ struct NamesOf<VarianceFunction> {
 
 /// The `[noise]` table of a fit file.
 struct NoiseSpec {
-  /// Empty for "auto": the stated standard deviations when every point has one, else whichever
-  /// function the points ask for.
+  /// Empty for "auto": the stated standard deviations if there are any, else the function that the
+  /// points select.
   std::optional<VarianceFunction> variance;
 
   bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
-  double student_dof = 4.0;  ///< its degrees of freedom, at least 1
+  double student_dof = 4.0;  ///< degrees of freedom of Student's t, at least 1
 
   /// Standard deviation of an error of e that the points of one setting share [1]; 0: none. Empty:
-  /// estimated from the points, where settings are named or `every_setting` asks for it.
+  /// estimated from the points, if settings are named or `every_setting` is true.
   std::optional<double> setting_sd;
-  bool every_setting = false;  ///< also of settings that have no name: of equal series, diameter
-                               ///< and velocity
+  bool every_setting = false;  ///< points without a named setting share one if series, diameter and
+                               ///< velocity are equal
 
   bool velocity_errors = true;        ///< use the velocity_sd of the points
   double velocity_relative_sd = 0.0;  ///< for points without one; 0: none
@@ -74,21 +74,21 @@ struct NoiseSpec {
 /// How the bootstrap makes a new data set from the fit and the points.
 enum class Scheme {
   automatic,   ///< "auto": chosen by the rule of `plan_resampling`
-  parametric,  ///< new noise of the fit's size about the fitted curve
-  residual,    ///< the residuals, scaled for leverage and centred, exchanged among the points
+  parametric,  ///< simulated noise of the estimated size about the fitted curve
+  residual,    ///< residuals, scaled for leverage and centred, drawn with replacement
   wild,        ///< each point keeps its own residual, with a random sign
   cases,       ///< "case": whole points drawn with replacement
   cluster,     ///< whole series drawn with replacement
 };
 
-/// As fit files, the command line and fit.json have it.
+/// The names in fit files, on the command line and in fit.json.
 template <>
 struct NamesOf<Scheme> {
   static constexpr std::array<std::string_view, 6> names = {"auto", "parametric", "residual",
                                                             "wild", "case",       "cluster"};
 };
 
-/// What a fit file states of one parameter.
+/// What a fit file states about one parameter.
 struct ParameterSpec {
   const Parameter* parameter = nullptr;
   double initial = 0.0;
@@ -96,83 +96,85 @@ struct ParameterSpec {
   double upper = 0.0;
   bool free = true;
   bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
-  bool initial_stated = false;  ///< f0 and W come from the materials when this is not stated
-  bool bounds_stated = false;  ///< else the upper one of C_H follows the velocities, see make_model
-  bool mentioned = false;  ///< the file has an entry for it: no condition of a dataset overrides it
+  bool initial_stated = false;  ///< false: the materials give f0 or W
+  /// False: the upper bound of C_H depends on the velocities, see make_model.
+  bool bounds_stated = false;
+  bool mentioned = false;  ///< the file has an entry for the parameter, so no condition of a
+                           ///< dataset overrides it
 
-  /// Is the start (or the value, if it is fixed) to be had from the materials of the datasets?
+  /// Does the start (or the value, if it is fixed) come from the materials of the datasets?
   bool is_derived() const { return parameter->is_adhesion() && !initial_stated; }
 };
 
-/// What a fit file means that does not mention `parameter`.
+/// The statement that holds if a fit file does not mention `parameter`.
 ParameterSpec default_of(const Parameter& parameter);
 
-/// What a fit makes of the errors that datasets state of their material constants.
+/// How a fit treats the stated errors of material constants.
 enum class Materials {
-  exact,       ///< nothing
-  propagated,  ///< the estimate stays where the stated constants put it; the errors of the
-               ///< constants widen every interval
-  adjusted,    ///< the points move the constants: each is one more observation of the fit
+  exact,       ///< errors are ignored
+  propagated,  ///< the estimate uses the stated constants; their errors widen every interval
+  adjusted,    ///< the fit moves the constants; each stated value is one more observation
 };
 
 /// The `[uncertainty]` table.
 struct UncertaintySpec {
   int replicates = 1999;  ///< 0 (no bootstrap) or at least 19: fewer have no 5 % tails
-  /// `replicates = "auto"`: as many as it takes, see UncertaintyOptions; `replicates` is not used.
+  /// `replicates = "auto"`: as many as the intervals need, see UncertaintyOptions; `replicates` is
+  /// not used.
   bool replicates_auto = false;
   Scheme scheme = Scheme::automatic;
   double level = 0.95;  ///< of every interval, in (0, 1)
   std::uint64_t seed = 20260101;
-  bool posterior = false;  ///< sample the posterior, too
-  /// Simulated data sets of `own_design_coverage`, 0: none; by default as many as
-  /// `own_design_datasets` has where they are cheap.
+  bool posterior = false;  ///< also sample the posterior
+  /// Number of simulated data sets of `own_design_coverage`; 0: none. Empty: the number that
+  /// `own_design_datasets` gives.
   std::optional<int> own_design;
   Materials materials = Materials::propagated;
 };
 
 /// A fit file, validated. Every key but `dataset` has its default here or in the catalogue.
 struct FitSpec {
-  std::string id;  ///< the file's name without its ending
+  std::string id;  ///< the file's name without its extension
   std::filesystem::path file;
-  std::vector<std::filesystem::path> datasets;  ///< folders, as seen from here
+  std::vector<std::filesystem::path> datasets;  ///< folders, relative to the working directory
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  /// The loss of the dry contact: `hunt_crossley` (C_H), or the `dry_loss` of a mechanism that is
-  /// among `mechanisms` and takes the place of C_H; `auto`: the points choose, see `choose_loss`.
-  /// Empty: auto where there is no adhesion, else hunt_crossley.
+  /// The loss of the dry contact: `hunt_crossley` (C_H), the `dry_loss` of a mechanism in
+  /// `mechanisms` that replaces C_H, or `auto`: the points select it, see `choose_loss`. Empty:
+  /// auto without adhesion, else hunt_crossley.
   std::string loss;
   std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
   bool mixed_sizes = true;  ///< points average over the sizes that their dataset states; false: all
                             ///< spheres of a point have its diameter
-  std::vector<ParameterSpec>
-      parameters;  ///< all of `parameters_with(mechanisms, adhesion)`, in that order
+  /// All of `parameters_with(mechanisms, adhesion)`, in that order.
+  std::vector<ParameterSpec> parameters;
   NoiseSpec noise;
-  Location variance_place;  ///< where the file names the variance function, for messages
+  Location variance_place;  ///< place of the variance function in the file, for messages
   UncertaintySpec uncertainty;
   double law_error = 0.1;  ///< `[diagnosis]`: relative, smooth error of the law of a mechanism [1]
-  std::string sha256;      ///< of the file's text
+  std::string sha256;      ///< SHA-256 of the file's text
 
-  /// The entry of `parameters`, or the default where there is none.
+  /// The entry of `parameters`, or `default_of` if there is none.
   ParameterSpec statement_of(const Parameter& parameter) const;
 };
 
 /// C_H of equation 5, as `[model] loss` names it.
 inline constexpr std::string_view hunt_crossley = "hunt_crossley";
 
-/// The names that `[model] loss` can have, without `auto`: `hunt_crossley` and every
+/// The names allowed for `[model] loss`, except `auto`: `hunt_crossley` and every
 /// `MechanismInfo::dry_loss`.
 std::vector<std::string> dry_losses();
 
 /// The mechanism whose loss has this name; null for `hunt_crossley`.
 const Mechanism* dry_loss_mechanism(std::string_view loss);
 
-/// `spec` with this loss of the dry contact: its mechanism is added and C_H is 0 and fixed.
+/// `spec` with this loss of the dry contact: a mechanism is added, and C_H is fixed at 0.
 FitSpec with_loss(FitSpec spec, const std::string& loss);
 
 /// Reads and validates a fit file. Unknown keys are errors that name the nearest known one.
 ///
-/// Rules for `[parameters]`: values are finite and not negative (damping only takes energy out);
+/// Rules for `[parameters]`: values are finite and not negative (damping only removes energy);
 /// bounds are [lower, upper] with lower < upper, and above zero for a parameter on a log scale; the
 /// initial value of a free parameter lies within its bounds, and that of a fixed one within bounds
 /// that the file states. Parameters of mechanisms stay within the bounds of the catalogue, where
@@ -181,7 +183,7 @@ FitSpec with_loss(FitSpec spec, const std::string& loss);
 /// @throws InputError with file, line and column.
 FitSpec load_fit(const std::filesystem::path& file);
 
-/// The same from a text instead of a file; does not look whether the dataset folders exist.
+/// Reads the same from a text instead of a file; does not check that the dataset folders exist.
 /// @throws InputError as `load_fit` does.
 FitSpec parse_fit(const std::string& text, const std::filesystem::path& file);
 

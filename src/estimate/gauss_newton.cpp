@@ -11,17 +11,18 @@ namespace recoil {
 namespace {
 
 constexpr int most_steps = 30;
-constexpr double all_digits = 1e-13;      // of theta
-constexpr double rounding_of_sum = 1e-9;  // its residuals may be small differences of large numbers
+constexpr double all_digits = 1e-13;  // relative step below which theta does not change
+// Relative; residuals may be small differences of large numbers.
+constexpr double rounding_of_sum = 1e-9;
 
-/// A minimum on its way, in the coordinates in which it was descended to.
+/// Gauss-Newton steps in the coordinates of the descent (ln theta for `log_scale`).
 class GaussNewton {
  public:
   GaussNewton(const LeastSquaresProblem& problem, const std::vector<std::size_t>& moving)
       : problem_(problem), moving_(moving) {}
 
-  /// The step from `at`, its length in units of how far the residuals tell, and how far it moves a
-  /// parameter at most in units of that one's standard error where the residuals scatter by 1.
+  /// The Gauss-Newton step d; its length, relative to the accuracy that the residuals allow; and
+  /// the largest move of a parameter in its standard errors, for residuals with a scatter of 1.
   struct Step {
     Eigen::VectorXd d;
     double length = 0.0;
@@ -54,7 +55,7 @@ class GaussNewton {
     return true;
   }
 
-  /// The answer at the step `d` from `from`; nullopt if infeasible or if the sum of squares grows.
+  /// The evaluation at `from` + `d`; nullopt if infeasible or if the sum of squares grows.
   std::optional<LeastSquaresResult> try_step(const LeastSquaresResult& from,
                                              const Eigen::VectorXd& d) const {
     LeastSquaresResult to = from;
@@ -66,8 +67,8 @@ class GaussNewton {
     return to;
   }
 
-  /// Takes a small step without an evaluation. @return false, and `at` unchanged, where it leaves
-  /// the bounds
+  /// Takes a small step without an evaluation. @return false, with `at` unchanged, if it leaves the
+  /// bounds
   bool take_last(LeastSquaresResult& at, const Eigen::VectorXd& d) const {
     const std::vector<double> before = at.theta;
     std::vector<double> theta = before;
@@ -83,7 +84,7 @@ class GaussNewton {
     return true;
   }
 
-  /// By how much of themselves `d` moves the parameters at most.
+  /// The largest relative change of a parameter by the step `d`.
   double moves(const LeastSquaresResult& at, const Eigen::VectorXd& d) const {
     double most = 0.0;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -99,15 +100,16 @@ class GaussNewton {
   const std::vector<std::size_t>& moving_;
 };
 
-/// The steps so far and the ways that were gone, as differences from one place to the next.
+/// History for Anderson mixing: the differences of successive Gauss-Newton steps, and the steps
+/// taken.
 class StepHistory {
  public:
-  /// @param first the first step: the scale of each parameter
+  /// @param first the first Gauss-Newton step, which gives the scale of each parameter
   explicit StepHistory(const Eigen::VectorXd& first) : scale_(first.cwiseAbs()) {
     scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
   }
 
-  /// The way to go from here, `d` being the Gauss-Newton step.
+  /// The mixed step to take, given the Gauss-Newton step `d`.
   Eigen::VectorXd way(const Eigen::VectorXd& d) {
     if (last_step_.size() > 0) {
       add_column(step_changes_, d - last_step_);
@@ -124,7 +126,7 @@ class StepHistory {
   }
 
  private:
-  /// No more columns than parameters: the oldest goes.
+  /// Keeps at most one column per parameter and drops the oldest.
   static void add_column(Eigen::MatrixXd& columns, const Eigen::VectorXd& column) {
     const Eigen::Index kept = std::min(columns.cols(), column.size() - 1);
     Eigen::MatrixXd next(column.size(), kept + 1);
@@ -158,7 +160,8 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
   };
   const Eigen::Index at_a_time = std::max<Eigen::Index>(2048, 16 * (q + 1));
   if (n <= 2 * at_a_time) return some(0, n);
-  // The triangle of the first rows, then that of itself and the next rows, and so on.
+  // Sequential QR: the triangular factor of the first rows, then of this factor and the next rows,
+  // and so on.
   Eigen::MatrixXd triangle(0, q + 1);
   for (Eigen::Index first = 0; first < n; first += at_a_time) {
     const Eigen::Index count = std::min(at_a_time, n - first);
@@ -197,7 +200,7 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
   };
   std::optional<GaussNewton::Step> step = method.step_from(result);
   std::optional<StepHistory> history;
-  double ratio = 1.0;  // of successive steps: what the last one leaves of itself
+  double ratio = 1.0;  // of the lengths of successive steps
   int count = 0;
   bool done = false;
   while (step && count < most_steps) {

@@ -10,30 +10,31 @@
 
 namespace recoil {
 
-/// The columns `moving` of the result's Jacobian and its residuals, [m x (moving + 1)]: as they
-/// are, or where there are many by orthogonal transformations of some rows at a time brought to few
-/// (m < n), which leaves every |r + J d| as it is.
+/// The columns `moving` of the result's Jacobian J, and its residuals r as the last column [m x
+/// (moving + 1)]. Many rows are reduced to few (m < n) by sequential QR factorisation, which
+/// preserves every |r + J d|.
 Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
                                 const std::vector<std::size_t>& moving);
 
-/// A minimum that lies near `start`, by the steps d = -(J'J)^-1 J'r of Gauss and Newton, combined
-/// as below. It ends where the last step, which is taken without an evaluation (the residuals
-/// follow it linearly), leaves less than `options.close_enough` of any parameter's standard error;
-/// with `options.finish` where `finish_by_gauss_newton` ends.
-/// @return nothing where the steps do not shrink to a half each, where one leaves the bounds, where
-/// the sum of squares grows or J is singular: then the way is too long for it
+/// Finds a minimum near `start` by Gauss-Newton steps d = -(J'J)^-1 J'r, combined as in
+/// `finish_by_gauss_newton`. The last step is taken without an evaluation (the residuals are
+/// extrapolated linearly). The iteration ends if the remaining error is below
+/// `options.close_enough` standard errors of every parameter; with `options.finish` it ends as
+/// `finish_by_gauss_newton` does.
+/// @return nullopt if a step is longer than half the step before, if one leaves the bounds, if the
+///   sum of squares grows or if J is singular: `start` is then too far from the minimum
 std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& problem,
                                                     std::span<const double> start,
                                                     const std::vector<bool>& fixed,
                                                     const LeastSquaresOptions& options);
 
-/// Takes a minimum that a descent found to the last digit. The descent stops where the sum of
-/// squares does, which is flat there and knows half of the digits; the steps d = -(J'J)^-1 J'r of
-/// Gauss and Newton vanish at the minimum and know all of them. They shrink by a constant ratio,
-/// which is not small where the residuals are large; from the second on they are combined so that
-/// the differences among them cancel (Anderson 1965, J. ACM 12, 547-560). It ends where the steps
-/// do not move theta any more or stop shrinking, and leaves `result` as it is where J is singular,
-/// where a step leaves the bounds or where the sum of squares grows.
+/// Refines a minimum that a descent found, to the last digit. The descent stops when the sum of
+/// squares does not change, which determines only half of the digits of theta. Gauss-Newton steps d
+/// = -(J'J)^-1 J'r vanish at the minimum and determine all of them. The steps shrink by a constant
+/// ratio, which is not small if the residuals are large; from the second step on they are combined
+/// to cancel their differences (Anderson 1965, J. ACM 12, 547-560). The iteration ends when the
+/// steps do not change theta or stop shrinking. It leaves `result` unchanged if J is singular, if a
+/// step leaves the bounds or if the sum of squares grows.
 /// @param moving the parameters that are neither fixed nor held by a bound
 void finish_by_gauss_newton(const LeastSquaresProblem& problem,
                             const std::vector<std::size_t>& moving, LeastSquaresResult& result);

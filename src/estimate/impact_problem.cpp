@@ -17,7 +17,7 @@ double stated_constant(const ImpactModel& model, const Observations& data, std::
   return data.constants.empty() ? model.constants[k].stated : data.constants[k];
 }
 
-/// The last rows of residuals and Jacobian.
+/// Fills the last rows of residuals and Jacobian, one for each uncertain constant.
 void add_constants_rows(const ImpactModel& model, const Observations& data,
                         std::span<const double> theta, std::span<double> residuals,
                         std::span<double> jacobian) {
@@ -70,7 +70,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   problem.evaluate = [predictor, settings, &model, &data, handovers](std::span<const double> theta,
                                                                      std::span<double> residuals,
                                                                      std::span<double> jacobian) {
-    if (called_off()) return false;  // the minimiser ends; its caller is told when it next asks
+    if (called_off()) return false;  // the minimiser ends; its caller then checks for the interrupt
     const std::size_t p = theta.size();
     std::atomic<bool> answered = true;
     const auto take = [&](std::size_t first, std::span<const ImpactResult> answers) {

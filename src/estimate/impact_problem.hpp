@@ -11,20 +11,24 @@
 
 namespace recoil {
 
-/// The weighted residuals of `data` under `model` as a least-squares problem in the slots of theta:
-/// those of the points, less what their settings share (SharedSettings), then for each uncertain
-/// constant of the materials how far it lies from its stated value, in standard deviations (times
-/// `constants_weight`): the sum of squares is -2 ln of likelihood times prior but for a constant,
-/// its minimum the mode of the posterior. Constants that fits do not move are held where they are
-/// stated. The problem refers to both arguments: they must outlive
-/// it. It and its copies share one work space, so that only one of them may be evaluated at a time.
+/// The weighted residuals of `data` under `model` as a least-squares problem in the slots of theta.
+/// The residuals of the points come first, whitened for shared errors (SharedSettings). One
+/// residual for each uncertain material constant follows: its deviation from the stated value in
+/// standard deviations, times `constants_weight`. The sum of squares is -2 ln (likelihood times
+/// prior) up to a constant, and its minimum is the mode of the posterior. Constants that fits do
+/// not move keep their stated values.
+///
+/// The problem refers to `model` and `data`, which must outlive it. It and its copies share one
+/// work space, so that only one of them may be evaluated at a time.
 /// @param handovers when not null, counts the impacts that the fast solver handed over
-/// @param points when not null, answers for the points of `data`, for several problems of one model
+/// @param points when not null, the predictor to use for the points of `data`; several problems of
+///   one model may share it
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
                                    long* handovers = nullptr,
                                    std::shared_ptr<PointPredictor> points = nullptr);
 
-/// The deviations of the constants under `theta`, in standard deviations.
+/// Deviations of the uncertain constants under `theta` from their stated values, in standard
+/// deviations [constants].
 std::vector<double> constant_deviations(const ImpactModel& model, const Observations& data,
                                         std::span<const double> theta);
 

@@ -17,10 +17,11 @@
 namespace recoil {
 namespace {
 
-// A parameter that cannot move the residuals by this part of their length is without effect.
+// A parameter that cannot change the residuals by this fraction of their norm has no effect.
 constexpr double least_effect = 1e-8;
 
-/// Ceres minimises over z: the free parameters only, logarithms where asked for.
+/// The coordinates z in which Ceres minimises: the free parameters only, as logarithms for
+/// `log_scale`.
 class Coordinates {
  public:
   Coordinates(const LeastSquaresProblem& problem, std::span<const double> start,
@@ -60,7 +61,7 @@ class Coordinates {
   std::vector<std::size_t> free_;
 };
 
-/// What a problem answers at one place.
+/// One evaluation of a problem.
 struct Answer {
   std::vector<double> theta;
   std::vector<double> residuals;
@@ -73,7 +74,7 @@ struct Answer {
   }
 };
 
-/// The answer of `problem` at `theta`, in the memory of `answer`.
+/// Evaluates `problem` at `theta` into `answer`, whose memory is reused.
 void ask(const LeastSquaresProblem& problem, std::vector<double> theta, Answer& answer) {
   answer.theta = std::move(theta);
   answer.residuals.resize(problem.residual_count);
@@ -83,9 +84,9 @@ void ask(const LeastSquaresProblem& problem, std::vector<double> theta, Answer& 
   for (const double r : answer.residuals) answer.sum_of_squares += r * r;
 }
 
-/// The problem as Ceres sees it. A trial step is evaluated with its Jacobian at once and kept: most
-/// trials are accepted, and then Ceres asks for the Jacobian at the same place. So is the answer at
-/// the best place so far, where the descent will end.
+/// The cost function for Ceres. It evaluates a trial step together with its Jacobian and keeps the
+/// answer: most trials are accepted, and Ceres then needs the Jacobian at the same point. It also
+/// keeps the best answer, because the descent ends there.
 class Residuals : public ceres::CostFunction {
  public:
   Residuals(const LeastSquaresProblem& problem, const Coordinates& coordinates, Answer& best)
@@ -134,7 +135,7 @@ bool rests_on_bound(double value, double bound) {
   return std::abs(value - bound) <= 1e-9 * std::max(std::abs(bound), 1e-9);
 }
 
-/// The parameters that are neither fixed nor held by a bound.
+/// The parameters that are neither fixed nor at a bound.
 std::vector<std::size_t> moving_of(const LeastSquaresResult& result,
                                    const std::vector<bool>& fixed) {
   std::vector<std::size_t> moving;
@@ -144,7 +145,7 @@ std::vector<std::size_t> moving_of(const LeastSquaresResult& result,
   return moving;
 }
 
-/// (J'J)^-1 over the parameters that moved freely, zero for all others.
+/// (J'J)^-1 over the parameters `moving`, zero for all others [p x p, row major].
 std::vector<double> covariance_of(const LinearisedResiduals& linear,
                                   const std::vector<std::size_t>& moving, std::size_t p) {
   std::vector<double> covariance(p * p, 0.0);
@@ -158,7 +159,7 @@ std::vector<double> covariance_of(const LinearisedResiduals& linear,
   return covariance;
 }
 
-/// The parameters whose column of J is too short to matter, however far they go.
+/// The parameters whose column of J is too short to change the residuals over any plausible range.
 std::vector<std::size_t> without_effect(const LeastSquaresProblem& problem,
                                         std::span<const double> start,
                                         const LeastSquaresResult& result,
@@ -190,7 +191,7 @@ void silence_library_log() {
   std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
 }
 
-/// Runs Ceres from `z`, which receives the minimum, and `best` what is known there.
+/// Runs Ceres from `z`, which receives the minimum; `best` receives the evaluation there.
 void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
              const LeastSquaresOptions& options, std::vector<double>& z, LeastSquaresResult& result,
              Answer& best) {
@@ -227,7 +228,7 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   result.iterations = static_cast<int>(summary.iterations.size());
 }
 
-/// d (sum of squares) / d theta_j / 2.
+/// Half of d (sum of squares) / d theta_j.
 double slope_along(const LeastSquaresResult& result, std::size_t j) {
   const std::size_t p = result.theta.size();
   double slope = 0.0;
@@ -237,8 +238,8 @@ double slope_along(const LeastSquaresResult& result, std::size_t j) {
   return slope;
 }
 
-/// One descent with `held` parameters kept where they are, and everything known at its end.
-/// @param known what is known of some place, perhaps of the start; its memory is taken
+/// One descent with the parameters `held` kept at their start, and the evaluation at its end.
+/// @param known an earlier evaluation, perhaps at the start; its memory is reused
 LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const double> start,
                          const std::vector<bool>& held, const LeastSquaresOptions& options,
                          Answer known = {}) {
@@ -265,13 +266,13 @@ LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const dou
   return result;
 }
 
-/// Which bound theta_j rests on: -1 the lower, +1 the upper, 0 none.
+/// The bound on which theta_j rests: -1 lower, +1 upper, 0 none.
 int resting_side(const LeastSquaresProblem& problem, double theta, std::size_t j) {
   if (rests_on_bound(theta, problem.lower[j])) return -1;
   return rests_on_bound(theta, problem.upper[j]) ? 1 : 0;
 }
 
-/// The descent within the bounds.
+/// Descends within the bounds by the last strategy.
 LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
                                          std::span<const double> start,
                                          const std::vector<bool>& fixed,
@@ -282,9 +283,10 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
   LeastSquaresResult result = by_box ? descend_in_box(problem, start, fixed, options)
                                      : solve(problem, start, held, options);
   result.strategy = options.strategies.back();
-  // A projected trust-region step that runs into a bound can end the descent short of the minimum
-  // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever
-  // the slope pulls back inside, until nothing changes (an active-set iteration).
+  // A trust-region step that is projected onto a bound can end the descent before the other
+  // parameters reach their minimum. Therefore an active-set iteration: hold the parameters at a
+  // bound, descend along the others, release the parameters whose gradient points back inside, and
+  // repeat until the set does not change.
   for (std::size_t round = 0; !by_box && result.end == DescentEnd::minimum; ++round) {
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {
@@ -319,7 +321,7 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
   return result;
 }
 
-/// One minimisation with everything that is known at its end.
+/// One minimisation by the strategies in turn, with covariance and flat parameters at its end.
 LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<const double> start,
                                  const std::vector<bool>& fixed,
                                  const LeastSquaresOptions& options) {
@@ -372,7 +374,7 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
   std::vector<bool> fixed = problem.fixed;
   fixed.resize(start.size(), false);
   LeastSquaresResult result = minimise_once(problem, start, fixed, options);
-  constexpr double short_steps = 1e-3;  // from (1, 1) to the minimum of NIST's BoxBOD
+  constexpr double short_steps = 1e-3;  // reaches the minimum of NIST's BoxBOD from (1, 1)
   if (result.end != DescentEnd::flat || options.first_radius <= short_steps) return result;
   LeastSquaresOptions carefully = options;
   carefully.first_radius = short_steps;

@@ -3,8 +3,8 @@
 namespace recoil {
 namespace {
 
-// Below this ratio of its singular values a scaled J of integrated impacts (known to 1e-7) does not
-// tell a direction from one without any effect.
+// If the ratio of its singular values is below this, a scaled J of integrated impacts (accurate to
+// 1e-7) cannot show that the direction has any effect.
 constexpr double singular_ratio = 3e-7;
 
 }  // namespace

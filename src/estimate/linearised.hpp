@@ -6,15 +6,14 @@
 
 namespace recoil {
 
-/// Residuals that are taken as linear, r + J d, by the QR factors of J with its columns scaled to
-/// length 1: products J'J would lose half of the digits (Golub & Van Loan, Matrix Computations,
-/// section 5.3).
+/// Linearised residuals r + J d, by the QR factors of J with its columns scaled to length 1;
+/// products J'J would lose half of the digits (Golub & Van Loan, Matrix Computations, section 5.3).
 class LinearisedResiduals {
  public:
   /// @param jacobian J [n x q]
   explicit LinearisedResiduals(const Eigen::MatrixXd& jacobian);
 
-  /// Do the residuals leave some combination of the parameters open, as far as J can be known?
+  /// Is some combination of the parameters undetermined, given the accuracy of J?
   bool singular() const { return singular_; }
 
   /// The Gauss-Newton step: the d [q] with the smallest |r + J d|. @pre !singular()

@@ -19,13 +19,13 @@ bool is_dry(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   return true;
 }
 
-/// What the file itself says of C_H: a value that is held is no candidate among others.
+/// Does the file fix C_H? A fixed value is not compared with other laws.
 bool holds_damping(const FitSpec& spec) {
   const ParameterSpec damping = spec.statement_of(base_parameters(spec.adhesion).front());
   return damping.mentioned && !damping.free;
 }
 
-// Laws whose criteria differ by less pass through the same points, those of one velocity say.
+// Laws whose criteria differ by less predict the same values, for example at a single velocity.
 constexpr double same_criterion = 0.01;
 
 }  // namespace
@@ -60,9 +60,9 @@ LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
     const FitResult fitted = fit(model, data);
     if (!fitted.usable || !fitted.flat.empty()) continue;
-    if (!fitted.data.noise.known) return as_stated;  // it passes through all points
+    if (!fitted.data.noise.known) return as_stated;  // the fit passes through all points
     const double k = model.free_count() + (data.sd_stated ? 0 : 1);
-    // Of laws with equally many parameters the correction tells nothing.
+    // The correction for few points; it is equal for laws with equally many parameters.
     const double correction = n > k + 1.0 ? 2.0 * k * (k + 1.0) / (n - k - 1.0) : 0.0;
     choice.laws.push_back({loss, minus_two_log_likelihood(fitted) + 2.0 * k + correction});
   }

@@ -9,26 +9,27 @@
 
 namespace recoil {
 
-/// One law of loss of the dry contact, as the points have it.
+/// A law of loss of the dry contact, and how well it fits the points.
 struct LossFit {
   std::string id;           ///< as `[model] loss` names it
   double delta_aicc = 0.0;  ///< AICc above that of the best law
 };
 
-/// -2 ln likelihood of the points at the fit, but for a constant that all fits to them share: the
-/// sum of squared residuals r, and -2 sum ln |dr / de| for their unit, which the weights set.
+/// -2 ln likelihood of the points at the fit, up to a constant that all fits to them share: the sum
+/// of squared residuals r, the log-determinant of shared errors, and -2 sum ln |dr / de| for the
+/// scale of e, which depends on the weights.
 double minus_two_log_likelihood(const FitResult& fitted);
 
-/// A fit whose loss is decided.
+/// A fit specification with a definite loss.
 struct LossChoice {
   FitSpec spec;
-  std::vector<LossFit> laws;  ///< the best first; empty where nothing was to be chosen
+  std::vector<LossFit> laws;  ///< the best first; empty if no choice was made
 };
 
-/// Where `spec` leaves the loss to the points, fits every law and takes the one with the smallest
-/// AICc (Burnham & Anderson 2002, Model Selection and Multimodel Inference, section 2.4); of equal
-/// ones the first of `dry_losses`. A law that cannot act, or to which no point is sensitive, is no
-/// candidate. Where the noise is unknown, or no law has a fit, C_H stays.
+/// If `spec` leaves the loss to the points, fits every law and selects the smallest AICc (Burnham &
+/// Anderson 2002, Model Selection and Multimodel Inference, section 2.4); among equal ones the
+/// first of `dry_losses`. A law that cannot act, or that affects no point, is not a candidate. C_H
+/// is kept if the noise is unknown or if no law can be fitted.
 LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets);
 
 }  // namespace recoil

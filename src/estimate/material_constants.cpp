@@ -20,7 +20,7 @@ const Material& material_of(const ImpactSystem& system, Body body) {
   return body == Body::surface ? system.surface : system.particle;
 }
 
-/// Do two datasets mean the same thing by a constant of this body?
+/// Do two datasets have the same body, so that they share its constants?
 bool same_body(const ImpactSystem& a, const ImpactSystem& b, Body body) {
   const auto same = [](const Material& one, const Material& other) {
     return !one.name.empty() && one.name == other.name;
@@ -95,8 +95,8 @@ MaterialLaw::MaterialLaw(const ImpactSystem& system, const ContactProperties& co
   const double nu = surface.poisson_ratio;
   const double density = surface.density > 0.0 ? surface.density : system.particle.density;
   mobility_ = half_space_mobility(surface.youngs_modulus, nu, density);
-  // c(nu) costs a thousand times as much as all the rest; a parabola of its logarithm is good to
-  // 1e-4 over 0.1 of nu.
+  // c(nu) costs a thousand times as much as the rest of the evaluation; a parabola in its logarithm
+  // has an error of 1e-4 over 0.1 in nu.
   constexpr double step = 0.01;
   const double middle = std::clamp(nu, -0.9, 0.48);
   const double low = std::log(half_space_radiation(middle - step));

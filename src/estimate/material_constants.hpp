@@ -11,19 +11,20 @@
 
 namespace recoil {
 
-/// A material constant that is known with an error: a parameter of the fit on which the stated
-/// value is one more observation. Positive ones scatter by a factor: the stated value is the median
-/// of a lognormal with sd of the logarithm sqrt(ln(1 + (sd / value)^2)); Poisson's ratio is normal.
+/// A material constant with a stated error. It is a parameter of the fit, and its stated value is
+/// one more observation. Positive constants are lognormal: the stated value is the median, and the
+/// logarithm has the sd sqrt(ln(1 + (sd / value)^2)). Poisson's ratio is normal.
 struct UncertainConstant {
   Body body = Body::particle;
   Constant constant = Constant::density;
-  double stated = 0.0;                ///< in its own unit
-  double sd = 0.0;                    ///< of its logarithm, or of itself where it is not positive
-  std::vector<std::size_t> datasets;  ///< that share it: the same body, stated alike
+  double stated = 0.0;  ///< in its own unit
+  double sd = 0.0;      ///< sd of its logarithm, or of the constant itself for Poisson's ratio
+  /// Datasets that share it: the same body with the same stated value.
+  std::vector<std::size_t> datasets;
 
-  /// (its value - the stated one) in standard deviations.
+  /// (`value` - `stated_value`) in standard deviations.
   double deviation(double value, double stated_value) const;
-  /// Where it lies `by` standard deviations above `value`: the inverse of `deviation`.
+  /// The value that lies `by` standard deviations above `value`: the inverse of `deviation`.
   double moved(double value, double by) const;
   /// d deviation / d value.
   double deviation_slope(double value) const;
@@ -45,17 +46,17 @@ struct MaterialSlope {
          wave_mobility = 0.0;
 };
 
-/// How the materials of one dataset follow from the constants: eqs 6, 7, 9 to 11 of
-/// `derive_contact`, and `half_space_mobility`, at any values of those that are uncertain.
+/// Computes the materials of one dataset from the constants by eqs 6, 7, 9 to 11 of
+/// `derive_contact` and by `half_space_mobility`, for any values of the uncertain constants.
 class MaterialLaw {
  public:
-  /// Which of the constants of `all` act on `dataset`.
+  /// Selects the constants of `all` that act on `dataset`.
   MaterialLaw(const ImpactSystem& system, const ContactProperties& contact,
               const std::vector<UncertainConstant>& all, std::size_t dataset);
 
-  /// Does none act?
+  /// Does no uncertain constant act?
   bool exact() const { return acting_.empty(); }
-  /// @param values of all constants, in their order
+  /// @param values values of all constants, in their order
   MaterialState at(std::span<const double> values) const;
   std::vector<MaterialSlope> slopes(std::span<const double> values) const;
 
@@ -70,15 +71,15 @@ class MaterialLaw {
   ImpactSystem system_;
   double relative_radius_;  // at the reference diameter [m]
   std::vector<Acting> acting_;
-  double mobility_ = 0.0;                 // as stated
-  std::array<double, 2> radiation_ = {};  // of ln c(nu), half_space_radiation: first two
+  double mobility_ = 0.0;                 // at the stated constants
+  std::array<double, 2> radiation_ = {};  // first two derivatives of ln c(nu), half_space_radiation
 };
 
-/// The constants of `datasets` that are known with an error. One of a body is shared by all
-/// datasets with this body (in the same role, of the same name) that state it alike.
+/// The constants of `datasets` that have a stated error. Datasets share a constant if they have the
+/// same body (same role, same name) and state the same value and error.
 std::vector<UncertainConstant> uncertain_constants(const std::vector<Dataset>& datasets);
 
-/// Standard deviation of the logarithm for a stated one of the value.
+/// Standard deviation of the logarithm, given that of the value: sqrt(ln(1 + (sd / value)^2)).
 double logarithmic_sd(double value, double sd);
 
 }  // namespace recoil

@@ -45,7 +45,7 @@ void add_constant_effects(const std::vector<std::vector<double>>& effects,
 
 double Misfit::scale() const {
   if (dof <= 0) return 1.0;
-  // A few points that leave nearly all they know to the constants say little of their noise.
+  // Lower limit of the divisor, for few points whose information mostly determines the constants.
   const double left = std::max(dof - learned, 0.25 * dof);
   return std::sqrt(point_square / left);
 }
@@ -70,13 +70,13 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
               std::span<const double> predicted, int free_count, const ConstantsInFit& constants) {
   Misfit result;
   const std::optional<StudentNoise>& student = data.noise.student;
-  std::vector<double> plain;  // residuals, those of Student's t turned back
+  std::vector<double> plain;  // residuals before the transformation to Student's t
   int informative = 0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
     if (!data.sd_stated && point.censored) continue;
-    // A captured point that the model captures has no residual to speak of, whatever the
-    // parameters: it fixes a side, not a value, and is no degree of freedom of the noise.
+    // A captured point that the model also captures has a residual near zero for any parameters: it
+    // determines a sign, not a value, and is no degree of freedom of the noise.
     if (point.informs(predicted[i])) ++informative;
     double r = student ? student->original(residuals[i]) : residuals[i];
     if (!data.sd_stated && point.weights.scatter > 0.0) {

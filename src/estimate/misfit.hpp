@@ -10,61 +10,69 @@
 
 namespace recoil {
 
-/// How far a fit that holds the constants of the materials goes when one of them is stated one
-/// standard deviation higher, to first order:
+/// The change of a fit with fixed material constants when one constant is one standard deviation
+/// higher, to first order:
 ///   d theta / d c = -(J'J)^-1 J' J_c,
-/// J the derivatives of the residuals in the parameters that move, J_c those in the constant
-/// (implicit differentiation of J'r = 0, without the second derivatives, as in Gauss-Newton).
-/// @param run with the Jacobian and (J'J)^-1 at its end; @param points the number of its points
-/// @return [constant][slot], in the units of the slots, the constant's own slot included; empty
-///   where fits move the constants or all are exact, or without (J'J)^-1
+/// where J holds the derivatives of the residuals in the moving parameters and J_c those in the
+/// constant (implicit differentiation of J'r = 0, without the second derivatives, as in
+/// Gauss-Newton).
+/// @param run the descent, with the Jacobian and (J'J)^-1 at its end
+/// @param points number of its points
+/// @return [constant][slot], in the units of the slots, including the constant's own slot; empty if
+///   fits move the constants, if all are exact, or without (J'J)^-1
 std::vector<std::vector<double>> constant_effects(const ImpactModel& model,
                                                   const LeastSquaresResult& run,
                                                   std::size_t points);
 
-/// Adds sum_k e_k e_k' of the effects e_k to `covariance` [slots x slots]: the errors of the
-/// constants are independent of those of the points and of one another.
+/// Adds sum_k e_k e_k' to `covariance` [slots x slots], with the effects e_k, as the errors of the
+/// constants are independent of each other and of those of the points.
+/// @param sign -1 subtracts them
 void add_constant_effects(const std::vector<std::vector<double>>& effects,
                           std::vector<double>& covariance, double sign = 1.0);
 
-/// The part that uncertain constants of the materials have in a fit.
+/// The contribution of uncertain material constants to a fit.
 struct ConstantsInFit {
-  double square = 0.0;   ///< sum of their deviations from what is stated, in standard deviations
-  double learned = 0.0;  ///< how many constants the points determine: trace of the points' hat
-                         ///< matrix less the free parameters, from 0 to their number
+  /// Sum of squares of their deviations from the stated values, in standard deviations.
+  double square = 0.0;
+  /// Number of constants that the points determine: trace of the points' hat matrix minus the
+  /// number of free parameters, from 0 to the number of constants.
+  double learned = 0.0;
 };
 
 /// @param run a fit whose last residuals are those of `count` constants that it moved
-/// @param weight of them, Observations::constants_weight
+/// @param weight their weight, Observations::constants_weight
 ConstantsInFit constants_in_fit(const LeastSquaresResult& run, std::size_t count, double weight);
 
-/// How far the points lie from a fit, in the measure that fits their distribution.
+/// The distance of the points from a fit, in the measure of their distribution.
 ///
-/// Where the noise is estimated, only means of rebounds count: counts of captures do not scatter
-/// less when the standard deviations are larger. Uncertain constants of the materials are
-/// observations that count where the standard deviations are stated: as many come as there are
-/// parameters for them. An estimate of the noise is from the points alone, by restricted maximum
-/// likelihood: sum r^2 / (points - trace of their hat matrix).
+/// If the noise is estimated, only means of rebounds count: the standard deviations do not affect
+/// the scatter of counts of captures. If the standard deviations are stated, uncertain material
+/// constants count as observations; they add as many observations as parameters. The noise is
+/// estimated from the points alone, by restricted maximum likelihood: sum r^2 / (points - trace of
+/// their hat matrix).
 struct Misfit {
-  double square = 0.0;  ///< sum of r^2; for Student's t sum of psi(r)^2 / E psi^2: both expect dof
-  double point_square = 0.0;  ///< the part of the points
+  double square = 0.0;  ///< sum of r^2; for Student's t sum of psi(r)^2 / E psi^2: the expectation
+                        ///< of both is dof
+  double point_square = 0.0;  ///< the part from the points, without the constants
   double learned = 0.0;       ///< ConstantsInFit::learned
-  int dof = 0;                ///< points less free parameters; captured points that the model also
-                              ///< captures do not count, as they cannot scatter
-  double p_value = 1.0;       ///< of `square` under the weights as they are; 1 without dof. For
-                              ///< Student's t, see StudentNoise::p_value
+  int dof = 0;  ///< points minus free parameters; captured points that the model also captures do
+                ///< not count, as they cannot scatter
+  double p_value = 1.0;  ///< of `square` under the present weights; 1 without dof. For Student's t,
+                         ///< see StudentNoise::p_value
 
-  /// sqrt(point_square / (dof - learned)): what the weights are too small by; 1 without dof.
+  /// sqrt(point_square / (dof - learned)): the factor by which the standard deviations are too
+  /// small; 1 without dof.
   double scale() const;
 };
 
-/// @param residuals of `weighted_residual`, [points]
-/// @param predicted e^2 [points]
+/// @param residuals values of `weighted_residual` [points]
+/// @param predicted predicted e^2 [points]
 Misfit misfit(const Observations& data, std::span<const double> residuals,
               std::span<const double> predicted, int free_count,
               const ConstantsInFit& constants = {});
 
-/// (J'J)^-1 of a fit to `data` as a covariance for weights that are right up to `noise_scale`.
+/// The covariance of a fit to `data` from its (J'J)^-1, for standard deviations that are too small
+/// by the factor `noise_scale`.
 std::vector<double> scaled_covariance(const Observations& data,
                                       const std::vector<double>& inverse_information,
                                       double noise_scale);

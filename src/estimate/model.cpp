@@ -13,11 +13,12 @@
 namespace recoil {
 namespace {
 
-// Short of where an isotropic solid would be unstable (-1) or incompressible (1/2).
+// Limits of an isotropic solid: unstable at -1, incompressible at 1/2.
 constexpr double least_poisson_ratio = -0.99;
 constexpr double largest_poisson_ratio = 0.5;
 
-/// The diameter at which f0 is stated: the dataset's own, else the middle one of its points.
+/// The diameter at which f0 is stated: the one that the dataset states, else the median of its
+/// diameters.
 double reference_diameter_of(const Dataset& dataset) {
   if (dataset.system.reference_diameter) return *dataset.system.reference_diameter;
   const std::vector<double> diameters = distinct_diameters(dataset);
@@ -26,7 +27,7 @@ double reference_diameter_of(const Dataset& dataset) {
 
 std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::string& dataset,
                      const std::string& series, double initial) {
-  // A fixed value stays as it is: no adhesion is f0 = 0, below the bounds of a fitted one.
+  // A fixed value may lie below the bounds of a fitted one: f0 = 0 without adhesion.
   const double lower = spec.free ? spec.lower : std::min(spec.lower, initial);
   model.slots.push_back({spec.parameter, dataset, series, initial, lower, spec.upper, spec.free,
                          spec.parameter->log_scale && lower > 0.0, spec.is_derived()});
@@ -44,8 +45,8 @@ std::size_t add_stated_slot(ImpactModel& model, const ParameterSpec& spec,
   return slot;
 }
 
-/// What the conditions of each series of a dataset say of a parameter, and last those of a sphere
-/// of no series.
+/// The values of a parameter that the conditions of each series of a dataset state; the last entry
+/// is for a sphere without series.
 std::vector<std::optional<StatedValue>> said_by_conditions(const ImpactModel& model,
                                                            const ParameterSpec& spec,
                                                            const Dataset& dataset, std::size_t d) {
@@ -62,7 +63,7 @@ std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const Pa
                                                     const std::vector<Dataset>& datasets) {
   std::vector<std::vector<std::size_t>> all;
   const bool several = datasets.size() > 1;
-  std::optional<std::size_t> common;  // of what no condition states
+  std::optional<std::size_t> common;  // shared by all datasets and series without a stated value
   const auto open_slot = [&](const Dataset& dataset) {
     if (spec.per_dataset) return add_slot(model, spec, several ? dataset.id : "", "", spec.initial);
     if (!common) common = add_slot(model, spec, "", "", spec.initial);
@@ -86,7 +87,7 @@ std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const Pa
                                    : open_slot(dataset));
       continue;
     }
-    std::optional<std::size_t> open;  // of this dataset
+    std::optional<std::size_t> open;  // slot of this dataset for series without a stated value
     for (std::size_t s = 0; s < said.size(); ++s) {
       const bool of_series = s < dataset.series.size();
       if (said[s]) {
@@ -101,9 +102,9 @@ std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const Pa
   return all;
 }
 
-/// C_H V is what damps: at 30 a sphere keeps e = 0.03 (1 + C_H V = (1 - C_H V e) exp(C_H V (1 +
-/// e)), Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445). Slow spheres of a low e need a C_H far
-/// above the bound of the catalogue.
+/// Upper limit of C_H V. At C_H V = 30 a sphere keeps e = 0.03, by 1 + C_H V = (1 - C_H V e)
+/// exp(C_H V (1 + e)) (Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445). Slow spheres with a low e
+/// need a C_H far above the bound of the catalogue.
 constexpr double most_damping = 30.0;
 
 ParameterSpec with_room_for_damping(ParameterSpec spec, const std::vector<Dataset>& datasets) {
@@ -121,7 +122,7 @@ ParameterSpec with_room_for_damping(ParameterSpec spec, const std::vector<Datase
 /// The slot of a parameter of the base model for every dataset.
 std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec& spec,
                                         const std::vector<Dataset>& datasets) {
-  // f0 belongs to a pair of materials: where it is derived, every dataset has its own.
+  // f0 depends on the pair of materials: if it is derived, every dataset has its own slot.
   const bool derived = spec.is_derived();
   const bool split = datasets.size() > 1 && (spec.per_dataset || (derived && !spec.free));
   std::vector<std::size_t> slots;
@@ -136,7 +137,7 @@ std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec&
   return slots;
 }
 
-/// Without adhesion in any dataset of a slot nothing is damped by C_A: it is 0 and not fitted.
+/// Fixes C_A at 0 if no dataset of its slot has adhesion: it then damps nothing.
 void fix_damping_of_nothing(ImpactModel& model) {
   for (const std::size_t damping : model.slot_C_A) {
     bool adheres = false;
@@ -151,7 +152,7 @@ void fix_damping_of_nothing(ImpactModel& model) {
   }
 }
 
-/// How far a constant may go, in standard deviations.
+/// Range of a constant to either side, in standard deviations.
 constexpr double widest = 8.0;
 
 void add_constant(ImpactModel& model, const UncertainConstant& constant,
@@ -178,7 +179,7 @@ void add_constant(ImpactModel& model, const UncertainConstant& constant,
   model.constants.push_back(constant);
 }
 
-/// The constants of which anything in the model depends.
+/// Adds the constants on which the model depends.
 void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
   const std::vector<UncertainConstant> all = uncertain_constants(datasets);
   std::vector<double> stated;
@@ -207,12 +208,14 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
   }
 }
 
-/// Are the materials of the dataset without error? (Those who build a model by hand state none.)
+/// Are the materials of the dataset exact? (A model that was built without `make_model` has no
+/// constants.)
 bool is_exact(const ImpactModel& model, std::size_t dataset) {
   return model.constants.empty() || model.materials[dataset].exact();
 }
 
-/// Does `dataset` state its adhesion, without an error? Then no constant moves it.
+/// Does `dataset` state its adhesion without an error? Then it does not depend on any uncertain
+/// constant.
 bool states_exact_adhesion(const ImpactModel& model, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
   const bool ring = traits(model.adhesion).by_force;
@@ -323,7 +326,7 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
         model.slot_own.push_back(add_own_slots(model, stated, datasets));
         break;
       case ParameterRole::material_constant:
-        break;  // no parameter of a fit file
+        break;  // not a parameter of a fit file
     }
   }
   fix_damping_of_nothing(model);

@@ -16,8 +16,8 @@
 namespace recoil {
 namespace {
 
-/// Where no standard deviation is stated, every impact gets this one at first; only ratios matter
-/// until the scale is estimated from the residuals.
+/// Initial standard deviation of every impact if none is stated; only ratios matter until the scale
+/// is estimated from the residuals.
 constexpr double nominal_sd = 0.02;
 
 bool has_column(const Dataset& dataset, const std::string& name) {
@@ -51,9 +51,9 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   return point;
 }
 
-/// Numbers the settings of all datasets in the order in which they appear. What states none shares
-/// it with the points of its series, diameter and velocity.
-/// @returns whether some setting that `spec` asks about has several points
+/// Numbers the settings of all datasets in the order in which they appear. A point without a stated
+/// setting shares one with the points of its series, diameter and velocity.
+/// @return whether some setting to which `spec` assigns a shared error has several points
 bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
   std::vector<const ImpactPoint*> stated;
   for (const Dataset& dataset : datasets) {
@@ -72,7 +72,8 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
     return std::pair(key(a), a) < std::pair(key(b), b);
   });
   bool several = false;
-  for (std::size_t k = 0; k < order.size(); ++k) {  // of each setting its first point, for now
+  for (std::size_t k = 0; k < order.size();
+       ++k) {  // first by the index of the setting's first point
     const bool is_new = k == 0 || key(order[k]) != key(order[k - 1]);
     data.points[order[k]].setting = is_new ? order[k] : data.points[order[k - 1]].setting;
     several =
@@ -86,16 +87,16 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
   return several;
 }
 
-/// Finds the bounces that follow each other in a launch and state their errors: V of each is the
-/// speed of the rebound before, but for the drag of the air.
-/// @returns whether there are any
+/// Finds successive bounces of a launch that state their errors: V of each equals the rebound
+/// velocity of the one before, up to the drag of the air.
+/// @return whether there are any
 bool number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
-  constexpr double drag = 0.02;  // most of the speed that a flight loses
+  constexpr double drag = 0.02;  // largest relative loss of speed in flight
   std::size_t launches = 0;
   bool any = false;
   std::size_t first = 0;
   for (const Dataset& dataset : datasets) {
-    std::map<std::string_view, std::size_t> last;  // of each launch
+    std::map<std::string_view, std::size_t> last;  // previous point of each launch
     for (std::size_t k = 0; k < dataset.points.size(); ++k) {
       const ImpactPoint& p = dataset.points[k];
       if (p.launch.empty() || !p.restitution_sd || !(p.restitution > 0.0)) continue;
@@ -118,8 +119,8 @@ bool number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
   return any;
 }
 
-/// Sd of e^2 from impact to impact until it is estimated, where only counts are known: e^2 rises by
-/// about 2 in ln V at capture, and capture velocities that differ by a tenth are usual.
+/// Initial sd of e^2 from impact to impact if only counts are known: d e^2 / d ln V is about 2 at
+/// capture, and capture velocities typically scatter by a tenth.
 constexpr double first_scatter = 0.2;
 
 void begin_counts(std::vector<Observation>& points) {
@@ -131,8 +132,8 @@ void begin_counts(std::vector<Observation>& points) {
   }
 }
 
-/// Where a point states none, its impacts are taken to scatter like the middle one of those that
-/// do: a captured point says nothing of the scatter of e.
+/// Completes missing standard deviations: the impacts of such a point are assumed to scatter like
+/// the median of the others. (A captured point gives no information about the scatter of e.)
 void complete_sd(std::vector<Observation>& points) {
   std::vector<double> known;
   for (const Observation& point : points) {
@@ -164,7 +165,7 @@ std::vector<bool> among_captures(const std::vector<Observation>& points) {
   struct Overlap {
     double slowest_rebound = INFINITY;
     double fastest_capture = 0.0;
-    bool single = true;  // impacts, each a row
+    bool single = true;  // every row is a single impact
   };
   std::map<std::pair<std::size_t, double>, Overlap> ranges;
   for (const Observation& point : points) {
@@ -218,8 +219,8 @@ bool Observations::weights_depend_on_fit() const {
 
 namespace {
 
-/// See `NoiseModel::rounding_sd`; of the coarsest dataset. Quotients of rounded velocities are not
-/// multiples of anything.
+/// `NoiseModel::rounding_sd` of the dataset with the coarsest rounding. Quotients of rounded
+/// velocities have no common step.
 double rounding_sd_of(const std::vector<Dataset>& datasets) {
   double coarsest = 0.0;
   for (const Dataset& dataset : datasets) {
@@ -280,7 +281,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
                     data.points.size()),
         "", "write \"auto\", or state them all");
   }
-  // Those that state none are completed; all captured and none stated, too.
+  // Points without a stated sd are completed, also if all points are captured and none states one.
   data.sd_stated =
       spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
   if (data.sd_stated) {

@@ -16,17 +16,17 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
-constexpr std::size_t place_of_force = 2;  // of f0 among the values of a point
+constexpr std::size_t place_of_force = 2;  // index of f0 in the values of a point
 constexpr std::size_t points_of_block = 512;
 
-/// A mechanism that acts, and which of the parameters of the model's chain are its own.
+/// A mechanism that acts, and the index of its first parameter in the model's chain.
 struct Acting {
   const Mechanism* mechanism;
   std::size_t first;
 };
 
-/// The sizes over which the points of a dataset average act like the mechanism for sizes that a fit
-/// estimates, with nothing to estimate: where none of the chain does it already.
+/// Adds the mechanism that averages over sizes, without free parameters, for datasets that state a
+/// size distribution, unless the chain already has it.
 void add_stated_sizes(const ImpactModel& model, std::vector<Acting>& acting) {
   if (!averages_over_sizes(model)) return;
   const std::vector<Mechanism>& catalogue = mechanism_catalogue();
@@ -81,7 +81,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
       const PointConditions& p = points_[i];
-      // Of the stated materials: theta scales these.
+      // Groups of the stated materials; theta scales them.
       const ContactProperties& stated = model.contacts[p.dataset];
       const auto [equal, density] = stated.as_one_sphere(p.diameter, stated.particle_density);
       const ImpactGroups groups =
@@ -92,7 +92,8 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     }
   });
 
-  constexpr std::size_t few = 8 * points_of_block;  // beyond it sorting costs more than impacts do
+  // Above this number sorting costs more than the impacts.
+  constexpr std::size_t few = 8 * points_of_block;
   if (points_.size() <= few) alike_ = first_alike(points_);
 
   std::vector<Acting> acting;
@@ -147,7 +148,7 @@ ImpactGroups PointPredictor::groups_at(std::size_t i) const {
           force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
 }
 
-/// The answers of the points from `first` on, as many as there is room for.
+/// Simulates answers.size() points from `first` on. @return the impacts handed to the reference
 long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
                          std::span<ImpactResult> answers) const {
   static thread_local std::array<ImpactGroups, points_of_block> groups;
@@ -155,7 +156,7 @@ long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
   for (std::size_t done = 0; done < answers.size();) {
     const std::size_t count = std::min(points_of_block, answers.size() - done);
     const std::size_t from = first + done;
-    // Whoever has one alike in this block takes the answer from there.
+    // A point takes the answer of an earlier equal point if that is in this block.
     const auto is_own = [&](std::size_t k) {
       return alike_.empty() || alike_[from + k] < from || alike_[from + k] == from + k;
     };
@@ -350,7 +351,7 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 
 namespace {
 
-/// C_H, C_A, f0, then the parameters of the chain, as they act on `point`.
+/// The values of C_H, C_A, f0 and the parameters of the chain at `point`.
 std::vector<double> values_at(const ImpactModel& model, std::span<const double> theta,
                               const PointConditions& point) {
   std::vector<double> values = {theta[model.slot_C_H[point.dataset]],

@@ -11,15 +11,15 @@
 
 namespace recoil {
 
-/// Which mechanisms of a model act: all, as in the data, or only those that are no error of the
-/// measurement, for what a sphere does whether it is measured or not.
+/// Which mechanisms of a model act: all, as in the data, or only those of the impact itself,
+/// without errors of the measurement.
 enum class Effects { as_measured, of_nature };
 
-/// A model's answer for one (diameter, velocity).
+/// The prediction of a model for one impact.
 struct Prediction {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;  ///< continued below zero for a capture, see ImpactResult
-  std::vector<double> gradient;      ///< d e^2 / d theta, one per slot; empty unless asked for
+  std::vector<double> gradient;      ///< d e^2 / d theta [slots]; empty unless requested
 
   bool usable() const {
     return outcome == ImpactOutcome::rebound || outcome == ImpactOutcome::captured;
@@ -28,33 +28,34 @@ struct Prediction {
   double restitution() const;
 };
 
-/// Simulates one impact under `theta`.
+/// Simulates one impact under `theta`. @param diameter [m] @param velocity [m/s]
 Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
                    double diameter, double velocity, bool gradient);
 
-/// The model at a fixed list of points under many theta: what does not depend on theta is worked
-/// out once, and few points are answered without allocating anything after the first evaluation.
-/// Many points fly in blocks, on all threads of the arena that asks; no digit depends on that. The
-/// answers of few points to the first theta with gradients are kept, because refits of many samples
-/// begin at one place, and those to the last theta.
+/// Evaluates the model at a fixed list of points for many theta. Quantities that do not depend on
+/// theta are computed once; for few points, no memory is allocated after the first evaluation. Many
+/// points are simulated in blocks on all threads of the caller's arena; results do not depend on
+/// the number of threads. For few points, the results at the last theta are kept, and those at the
+/// first theta with gradients, because refits of samples start there.
 class PointPredictor {
  public:
-  /// Refers to `model`, which must outlive it unchanged.
+  /// Keeps a reference to `model`, which must outlive it and not change.
   PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
                  Effects effects = Effects::as_measured);
 
-  /// Simulates every point under `theta`, with gradients when asked for.
-  /// @return how many impacts the fast solver handed over to the reference
+  /// Simulates every point under `theta`, with gradients if `gradient`.
+  /// @return number of impacts that the fast solver handed to the reference
   /// @throws CalledOff
   long evaluate(std::span<const double> theta, bool gradient);
 
-  /// What takes the answers of points `first`, `first` + 1 ...; other blocks may come at the same
-  /// time on other threads.
+  /// Receives the results of points `first`, `first` + 1, ...; other threads may call it at the
+  /// same time with other blocks.
   using TakeBlock = std::function<void(std::size_t first, std::span<const ImpactResult> answers)>;
-  /// The same, but the answers of many points are handed over block by block instead of kept, so
-  /// that `at` and the slopes have none.
+  /// The same, but passes the results of many points to `take` block by block instead of keeping
+  /// them; `at` and the slopes are then not available.
   long evaluate_blocks(std::span<const double> theta, bool gradient, const TakeBlock& take);
-  /// Does `evaluate_blocks` keep its answers, so that the same theta costs nothing a second time?
+  /// Does `evaluate_blocks` keep its results, so that a second evaluation at the same theta is
+  /// free?
   bool keeps_answers() const;
 
   std::size_t size() const { return points_.size(); }
@@ -64,10 +65,10 @@ class PointPredictor {
   void gradient_row(std::size_t i, double scale, std::span<double> row) const {
     gradient_row(i, results_[i], scale, row);
   }
-  /// The same for an answer that `evaluate_blocks` gave.
+  /// The same for a result of `evaluate_blocks`.
   void gradient_row(std::size_t i, const ImpactResult& answer, double scale,
                     std::span<double> row) const;
-  /// d e^2 / d V [s/m] and d e^2 / d D [1/m] at point i, theta held.
+  /// d e^2 / d V [s/m] and d e^2 / d D [1/m] at point i, at constant theta.
   double velocity_slope(std::size_t i) const;
   double diameter_slope(std::size_t i) const;
 
@@ -80,29 +81,29 @@ class PointPredictor {
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
-  /// Of every point the first under the same conditions, which answers for it (itself: none); empty
-  /// where no two are alike.
+  /// For every point the index of the first with the same conditions, whose result it takes; empty
+  /// if all points differ.
   std::vector<std::size_t> alike_;
-  std::vector<double> beta_per_f0_;          // beta is proportional to f0,
-  std::vector<double> range_per_f0_;         // and so is Maugis's lambda
-  std::vector<double> C_H_, C_A_;            // per dataset, under the last theta, as all below
-  std::vector<double> force_, force_slope_;  // f0, and its slope in its parameter
-  std::vector<double> beta_scale_;           // beta over that of the stated materials
-  std::vector<double> range_scale_;          // and lambda
-  std::vector<std::vector<MaterialSlope>> material_slopes_;  // where uncertain
+  std::vector<double> beta_per_f0_;          // beta over f0: beta is proportional to f0
+  std::vector<double> range_per_f0_;         // Maugis's lambda over f0
+  std::vector<double> C_H_, C_A_;            // per dataset at the last theta, as all below
+  std::vector<double> force_, force_slope_;  // f0, and d f0 / d (adhesion parameter)
+  std::vector<double> beta_scale_;           // beta relative to the stated materials
+  std::vector<double> range_scale_;          // lambda relative to the stated materials
+  std::vector<std::vector<MaterialSlope>> material_slopes_;  // empty if exact
   std::vector<Surroundings> surroundings_;
   std::optional<ExtendedImpacts> extended_;  // when mechanisms act
-  std::vector<std::size_t> slots_;           // of the values of every point, with extended_
-  std::vector<double> nulls_;                // of these values where there is no slot
+  std::vector<std::size_t> slots_;           // slots of the values of every point, with extended_
+  std::vector<double> nulls_;                // these values without a slot
   std::vector<double> values_;
   std::vector<ImpactResult> results_;
-  std::vector<double> last_theta_;  // of results_
+  std::vector<double> last_theta_;  // theta of results_
   bool last_gradient_ = false;
-  std::vector<double> first_theta_;  // with gradients
+  std::vector<double> first_theta_;  // with gradients; its results are in first_results_
   std::vector<ImpactResult> first_results_;
 };
 
-/// The typical sphere of a point as the mechanisms leave it at the contact.
+/// The typical sphere of a point at the contact, after the mechanisms that act before it.
 ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
                          const PointConditions& point);
 
@@ -110,7 +111,7 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
                                 std::vector<PointConditions> points, bool gradient);
 
-/// Where the kinetic energy of that sphere goes. @param impact of the base model at its contact
+/// The energy budget of that sphere. @param impact result of the base model at its contact
 WholeImpactEnergy whole_impact_energy(const ImpactModel& model, std::span<const double> theta,
                                       const PointConditions& point, const ImpactResult& impact);
 

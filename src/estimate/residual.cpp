@@ -14,7 +14,7 @@ namespace recoil {
 
 namespace {
 
-/// E sqrt(u + z) expanded in 1 / u^2; what falls below zero weighs less than 1e-30.
+/// E sqrt(u + z) expanded in 1 / u^2; the part of z with u + z < 0 has a probability below 1e-30.
 RootMoments far_above_capture(double u) {
   const double q = 1.0 / (u * u);
   const double root = std::sqrt(u);
@@ -90,13 +90,14 @@ class Table {
   std::array<RootMoments, count> nodes_;
 };
 
-/// A standard normal number x: ln P and the density over P, for P of x > z and of x < z.
+/// Tails of the standard normal distribution at z: ln P, and the density divided by P, for P(x > z)
+/// and P(x < z).
 struct NormalTails {
   double log_above, log_below;
   double hazard_above, hazard_below;
 };
 
-/// @param logarithms whether they are asked for; else they are 0
+/// @param logarithms whether the logarithms are needed; else they are 0
 NormalTails normal_tails_at(double z, bool logarithms) {
   const double distance = std::abs(z);
   NormalTails t{};
@@ -121,7 +122,7 @@ NormalTails normal_tails_at(double z, bool logarithms) {
   return z < 0.0 ? NormalTails{t.log_below, t.log_above, t.hazard_below, t.hazard_above} : t;
 }
 
-/// Rows of one setting ask for the same z in succession.
+/// `normal_tails_at` with a cache of one value: rows of one setting need the same z in succession.
 NormalTails normal_tails(double z, bool logarithms) {
   static thread_local double last = NAN;
   static thread_local bool with_logarithms = false;
@@ -134,12 +135,13 @@ NormalTails normal_tails(double z, bool logarithms) {
   return tails;
 }
 
-/// How the captures among the impacts of a point are spread: independent from impact to impact, and
-/// by the errors of V and d, which all impacts of the point share. Where the scatter of the impacts
-/// is not known, all of them share what the mean has: they count as one.
+/// The scatter of e^2 that decides how many impacts of a point are captured. One part is
+/// independent from impact to impact; the errors of V and d are common to all impacts of the point.
+/// If the scatter of the impacts is unknown, the error of the mean is taken as common to all: they
+/// count as one.
 struct CaptureSpread {
-  double scale;   ///< sd of e^2, both together
-  double weight;  ///< share of the impacts that count as independent
+  double scale;   ///< sd of e^2, both parts
+  double weight;  ///< effective number of independent impacts over their number
 };
 CaptureSpread capture_spread(const Observation& point) {
   const double n = point.events;
@@ -151,7 +153,7 @@ CaptureSpread capture_spread(const Observation& point) {
   return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
 }
 
-/// All impacts were captured, or none.
+/// Residual of a point with all or no impacts captured.
 WeightedResidual tobit_residual(const Observation& point, double m) {
   CaptureSpread spread = capture_spread(point);
   if (point.captured == 0) spread.scale = -spread.scale;
@@ -166,11 +168,11 @@ WeightedResidual tobit_residual(const Observation& point, double m) {
 struct Deviance {
   double value;
   double slope;
-  double curvature;  // without the second derivative of the survivors' mean
+  double curvature;  // omits the second derivative of the survivors' mean
 };
 
-/// D of a point whose impacts differ, and its derivatives in m.
-/// @param slope_only the value is not asked for
+/// The deviance D of a point with scatter, and its derivatives in m.
+/// @param slope_only the value is not needed
 Deviance event_deviance(const Observation& point, double m, bool slope_only) {
   const double x = m + point.weights.shift;
   Deviance d{0.0, 0.0, 0.0};
@@ -203,7 +205,7 @@ WeightedResidual event_residual(const Observation& point, double m) {
   const double unit = std::sqrt(0.5 * peak.curvature);
   constexpr double close = 1e-3;
   if (std::abs(away) * unit < close) {
-    // D - D(at) cancels here: two terms of the series, with an error of about close^4.
+    // D - D(at) would cancel here. Two terms of its series have a relative error of about close^2.
     const double skew = peak.third / (3.0 * peak.curvature);
     return {-unit * away * (1.0 + 0.5 * skew * away), -unit * (1.0 + skew * away)};
   }
@@ -216,7 +218,7 @@ WeightedResidual mean_residual(const Observation& point, double m) {
   const double variance = point.weights.sd * point.weights.sd;
   const double y = point.restitution * point.restitution - variance;
   const double hypotenuse = std::sqrt(m * m + variance * variance);
-  // For m far below zero (m + hypotenuse) cancels; the conjugate form does not.
+  // For m far below zero, m + hypotenuse cancels; the conjugate form does not.
   const double psi_squared =
       m >= 0.0 ? 0.5 * (m + hypotenuse) : 0.5 * variance * variance / (hypotenuse - m);
   const double psi = std::sqrt(psi_squared);
@@ -250,7 +252,8 @@ int binomial_quantile(double uniform, double p, int n) {
 }  // namespace
 
 RootMoments root_of_positive_normal(double u) {
-  // Rows of one setting ask for the same u in succession, and so do the parts of one deviance.
+  // Cache of one value: rows of one setting, and the parts of one deviance, need the same u in
+  // succession.
   static thread_local double last = NAN;
   static thread_local RootMoments moments;
   if (u != last) {
@@ -272,15 +275,15 @@ double event_deviance(const Observation& point, double m) {
 }
 
 void locate_peak(Observation& point) {
-  // D falls where everything would be captured and rises far above the measured mean.
+  // D decreases where all impacts would be captured and increases far above the measured mean.
   const double reach =
       10.0 * (point.weights.scatter + point.weights.input_sd + point.weights.mean_sd);
   double low = -point.weights.shift - reach;
   double high = point.restitution * point.restitution - point.weights.shift + reach;
   DeviancePeak& peak = point.weights.peak;
-  // Newton from the peak of the round before, then secants, and halving where these are slow; by
-  // hand, since it runs for every point in every round of every replicate. The error after a step
-  // of the secants is about its product with the error before it.
+  // Newton's method from the peak of the round before, then secants, and bisection if these are
+  // slow. Written here because it runs for every point in every round of every replicate. The error
+  // after a secant step is about the product of the two errors before it.
   constexpr int most_steps = 200;
   const double close_enough = 1e-13 * reach;
   const double h = 1e-3 * std::min(point.weights.scatter,
@@ -328,7 +331,7 @@ double expected_restitution(const Observation& point, double m) {
 Observation redraw_captures(const Observation& point, double restitution_squared, double uniform) {
   const double u = (restitution_squared + point.weights.shift) / point.weights.scatter;
   Observation drawn = point;
-  // Where nobody counted captures there is a mean of rebounds and nothing else to draw.
+  // If captures were not counted, the point is a mean of rebounds without a count to draw.
   drawn.captured =
       point.counted ? binomial_quantile(uniform, gsl_cdf_ugaussian_Q(u), point.events) : 0;
   drawn.censored = point.counts_only() || drawn.rebounds() == 0;

@@ -23,8 +23,8 @@ struct Reading {
   double e = 0.0;
   double sd = 0.0;  ///< stated; 0: none
   double velocity = 0.0;
-  std::size_t series = 0;  ///< among all series of all datasets
-  std::size_t place = 0;   ///< of its setting among all of them
+  std::size_t series = 0;  ///< index among all series of all datasets
+  std::size_t place = 0;   ///< index of its setting among all settings
 };
 
 /// A series at one diameter.
@@ -60,7 +60,7 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   found.diameter = group.diameter;
   std::vector<double> e;
   double stated = 0.0;                   // sum of variances
-  std::map<std::string, double> shared;  // by setting: sum of the errors of e that it shares
+  std::map<std::string, double> shared;  // by setting: sum of the shared errors of e
   bool all_stated = true;
   for (const ImpactPoint* point : points) {
     e.push_back(point->restitution);
@@ -156,7 +156,7 @@ class Line {
   double square() const { return rest_.squaredNorm(); }
   double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
   Eigen::Index columns() const { return inverse_.cols(); }
-  /// Is there an error, stated or seen?
+  /// Is an error known, stated or from the scatter?
   bool has_errors() const { return solvable_ && (stated_ || scatters_); }
   std::string missing() const {
     return dof_ < 1 ? "as many unknowns as readings, and no error is stated"
@@ -172,7 +172,7 @@ class Line {
     return {value(contrast) - half, value(contrast) + half};
   }
 
-  /// That all `contrasts` (columns) are 0.
+  /// p-value of the hypothesis that all `contrasts` (columns) are 0.
   double p_value(const Eigen::MatrixXd& contrasts) const {
     const Eigen::VectorXd seen = contrasts.transpose() * coefficients_;
     const double square =
@@ -193,14 +193,14 @@ class Line {
   Eigen::MatrixXd inverse_;
 };
 
-/// The mean reading of every place.
+/// The mean reading of every setting.
 std::vector<Reading> means_of_places(const std::vector<Reading>& readings) {
   std::map<std::size_t, std::vector<Reading>> places;
   for (const Reading& r : readings) places[r.place].push_back(r);
   std::vector<Reading> means;
   for (const auto& [place, own] : places) {
     Reading sum = own.front();
-    sum.sd = 0.0;  // what their points state is not what they scatter by
+    sum.sd = 0.0;  // the scatter of the means decides, not the stated errors
     sum.e = sum.velocity = 0.0;
     for (const Reading& r : own) {
       sum.e += r.e / static_cast<double>(own.size());
@@ -211,7 +211,7 @@ std::vector<Reading> means_of_places(const std::vector<Reading>& readings) {
   return means;
 }
 
-/// Do the means of places scatter more about the line than the readings of a place explain?
+/// Do the means of settings scatter more about the line than the readings within a setting explain?
 bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
   std::map<std::size_t, std::array<double, 4>> sums;  // w, w e, w e^2, count
   for (const Reading& r : readings) {
@@ -241,7 +241,7 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
   gsl_errors_are_values();
   RestitutionSummary summary;
   std::vector<Reading> readings;
-  std::vector<std::size_t> place_in_means;  // of every series
+  std::vector<std::size_t> place_in_means;  // [series] index into summary.means
   std::size_t place = 0;
   for (const Group& group : groups_of(datasets)) {
     place_in_means.push_back(summary.means.size());

@@ -20,14 +20,15 @@ namespace recoil {
 
 namespace {
 
-constexpr double proportional_floor = 0.1;  // e below which relative noise stays as it is
-constexpr double steepness = 2.0;           // of ln sd in (V* / V)^2
-constexpr double first_spread = 0.05;       // omega of the first round
-constexpr double near_reach = 0.7;          // in ln omega: a factor of two
+// e below which the sd of proportional noise is nearly constant.
+constexpr double proportional_floor = 0.1;
+constexpr double steepness = 2.0;      // d ln sd / d (V* / V)^2
+constexpr double first_spread = 0.05;  // event_spread omega of the first round
+constexpr double near_reach = 0.7;     // largest step in ln omega: a factor of two
 constexpr double least_spread = 2e-3;
 constexpr double largest_spread = 0.6;
-// Where e^2 exceeds its scatter so many times, survivors are all there are: sqrt(e^2) is their mean
-// to a relative 1 / (8 * 30^2) = 1.4e-4.
+// If e^2 exceeds its scatter by this factor, all spheres survive: sqrt(e^2) is their mean to a
+// relative 1 / (8 * 30^2) = 1.4e-4.
 constexpr double far_from_capture = 30.0;
 
 /// e^2 at one point and its first two derivatives in the logarithm of V or d.
@@ -37,7 +38,7 @@ struct Local {
   double bend = 0.0;
 };
 
-/// sd of a mean of `rebounds` impacts at predicted e^2 = m.
+/// sd of a mean of `rebounds` impacts at predicted e^2 = m [1].
 double function_sd(VarianceFunction function, double scale, double m, double proximity,
                    int rebounds) {
   const double s = scale / std::sqrt(static_cast<double>(std::max(1, rebounds)));
@@ -53,14 +54,15 @@ double function_sd(VarianceFunction function, double scale, double m, double pro
   return s;
 }
 
-/// Over what step in ln V or ln d an error of this relative size is felt.
+/// The step in ln V or ln d for differences of e^2, given the relative error of V or d.
 double error_step(double relative) {
   constexpr double shortest = 1e-3;
   constexpr double longest = 0.3;
   return std::clamp(relative, shortest, longest);
 }
 
-/// Everything is asked of the model at once, in the order in which it is needed.
+/// Renews the weights of `data`. It collects all conditions at which it needs the model, so that
+/// they are simulated in one batch, and reads the answers in the same order.
 class Renewal {
  public:
   enum class What { everything, event_spread };
@@ -73,12 +75,13 @@ class Renewal {
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
 
-  /// Where the answers of the model are needed beside the points, whose answers `points` may keep.
+  /// The conditions besides the points themselves at which predictions are needed. `points` may
+  /// have the results at the points.
   std::vector<PointConditions> questions(const PointPredictor& points) {
     std::vector<PointConditions> all;
     scatters_.assign(data_.points.size(), mixed_);
     for (std::size_t i = 0; mixed_ && points.keeps_answers() && i < scatters_.size(); ++i) {
-      // So far from capture the scatter is out of use by the slope alone.
+      // Far from capture, the slope alone shows that the scatter is not used.
       const Observation& p = data_.points[i];
       const double first_order =
           data_.noise.event_spread * p.velocity * std::abs(points.velocity_slope(i));
@@ -127,7 +130,8 @@ class Renewal {
     if (mixed_) estimate_scatter(locals);
   }
 
-  /// The data with event_spread times `factor` and nothing else changed.
+  /// The data with event_spread times `factor` and its effect on the weights; the rest is
+  /// unchanged.
   Observations with_spread(const std::vector<double>& at, const std::vector<Prediction>& beside,
                            double factor) const {
     Observations changed = data_;
@@ -150,7 +154,8 @@ class Renewal {
   }
 
  private:
-  /// A replicate may have no point with both rebounds and captures though its original had one.
+  /// A replicate may lack points with both rebounds and captures although the original data had
+  /// some.
   void forget_scatter() {
     data_.noise.event_spread = 0.0;
     for (Observation& point : data_.points) {
@@ -159,8 +164,8 @@ class Renewal {
     }
   }
 
-  /// The estimated sd and the effective variance of one point where e^2 is `m`; `local` gives the
-  /// next derivatives.
+  /// Sets the estimated sd and the effective variance of one point with predicted e^2 `m`; `local`
+  /// reads the next derivatives.
   template <class NextLocal>
   void set_errors(Observation& point, double m, const NextLocal& local) const {
     if (!data_.sd_stated) {
@@ -212,7 +217,7 @@ class Renewal {
     point.weights.mean_sd = std::sqrt(own * own + by_input * by_input);
   }
 
-  /// -2 ln likelihood but for a constant; leaves the points with this spread.
+  /// -2 ln likelihood up to a constant; sets the scatter of the points to this spread.
   double deviance(const std::vector<Local>& locals, double log_spread) {
     const double spread = std::exp(log_spread);
     double sum = 0.0;
@@ -231,7 +236,8 @@ class Renewal {
     return sum;
   }
 
-  /// omega by maximum likelihood at these parameters, and what follows for every point.
+  /// Estimates omega by maximum likelihood at these parameters, and sets the scatter of every
+  /// point.
   void estimate_scatter(const std::vector<Local>& locals) {
     double& spread = data_.noise.event_spread;
     spread = std::exp(lowest(locals));
@@ -242,23 +248,24 @@ class Renewal {
     }
   }
 
-  /// The minimum of the deviance in ln omega: downhill from the omega of the round before, by
-  /// parabolas and, where these fail, by the golden section; where that ends on a slope, anywhere.
+  /// The ln omega that minimises the deviance: a local search from the omega of the round before,
+  /// by parabolas and, if these fail, by golden section; if the minimum is not bracketed, a search
+  /// over the whole range.
   double lowest(const std::vector<Local>& locals) {
     const double before = std::log(data_.noise.event_spread);
     constexpr double tolerance = 1e-3;          // of omega, relative
-    const double close = std::sqrt(tolerance);  // a step of Newton's leaves about its square
+    const double close = std::sqrt(tolerance);  // the error after a Newton step is about its square
     const double least = std::log(least_spread);
     const double most = std::log(largest_spread);
     const auto at = [&](double log_spread) { return deviance(locals, log_spread); };
     constexpr int most_parabolas = 8;
-    constexpr double width = 0.02;  // of a parabola, to either side
+    constexpr double width = 0.02;  // half-width of a parabola
     double place = before;
     double lowest_value = at(place);
     for (int i = 0; i < most_parabolas; ++i) {
       const double more = at(place + width);
       const double less = at(place - width);
-      // At an end of the range, beyond which it would be lower.
+      // The deviance decreases towards an end of the range: the end is the answer.
       if (place < least + width && more > lowest_value) return place;
       if (place > most - width && less > lowest_value) return place;
       const double bend = (more - 2.0 * lowest_value + less) / (width * width);
@@ -292,18 +299,19 @@ class Renewal {
 
   Observations& data_;
   bool everything_;
-  bool mixed_ = false;          ///< somewhere spheres both rebound and stick
-  std::vector<bool> scatters_;  ///< which points may be near enough to capture for that to matter
+  bool mixed_ = false;  ///< in some range of velocities spheres both rebound and stick
+  /// Points that may be close enough to capture for the scatter to matter.
+  std::vector<bool> scatters_;
 };
 
-/// The model's e^2 at the points of some data, and its answers to the questions beside them.
+/// The predicted e^2 at the points, and the predictions at `Renewal::questions`.
 struct Answers {
   std::vector<double> at;
   std::vector<Prediction> beside;
 };
 
-/// Nothing when the model has no answer somewhere. A fit asks `points` for the same theta with
-/// gradients next: few points are asked for them at once.
+/// Evaluates the model for `renewal`; nullopt if an impact cannot be solved. The fit needs the
+/// gradients at the same theta next, so they are computed at once if `points` keeps them.
 std::optional<Answers> ask(const ImpactModel& model, std::span<const double> theta,
                            PointPredictor& points, Renewal& renewal) {
   Answers answers{std::vector<double>(points.size()), {}};
@@ -324,16 +332,16 @@ std::optional<Answers> ask(const ImpactModel& model, std::span<const double> the
   return answers;
 }
 
-/// Renews whatever in the weights of `data` depends on the parameters, at `theta`: estimated
-/// standard deviations (for the present variance function and scale), effective variances, the
-/// scatter from impact to impact (event_spread by maximum likelihood), and what settings share.
-/// @param points answers for the points of `data`
-/// @returns the predicted e^2 of every point; nothing when the model has no answer somewhere.
+/// Recomputes the weights of `data` at `theta`: estimated standard deviations (for the present
+/// variance function and scale), effective variances, the scatter from impact to impact
+/// (event_spread by maximum likelihood), and shared errors.
+/// @param points predictor for the points of `data`
+/// @return the predicted e^2 of every point; nullopt if an impact cannot be solved
 std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
                                                  std::span<const double> theta,
                                                  PointPredictor& points, Observations& data) {
   if (!data.sd_stated) {
-    double capture = 0.0;  // of the points of one size in turn
+    double capture = 0.0;  // V* of the present dataset and diameter
     const Observation* before = nullptr;
     for (Observation& point : data.points) {
       if (before == nullptr || before->dataset != point.dataset ||
@@ -353,11 +361,10 @@ std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
 }
 
 constexpr int most_rounds = 25;
-// A replicate drops a variance function that is so far behind another one, in the criterion of
-// both.
+// A replicate drops a variance function whose criterion exceeds that of another one by this.
 constexpr double far_behind = 2.0;
 
-/// The steps of the parameters in units of their standard errors (of their values, without one).
+/// The steps of the parameters in their standard errors, or relative to their values without one.
 std::vector<double> relative_steps(const LeastSquaresResult& run,
                                    const std::vector<double>& before) {
   const std::size_t p = before.size();
@@ -377,8 +384,7 @@ double largest(const std::vector<double>& steps) {
   return most;
 }
 
-/// Where the rounds lead when each of their steps is the same part of the one before (Aitken): the
-/// weights and the parameters may creep towards each other by a fifth of the way at a time.
+/// Aitken extrapolation of the rounds, whose steps may shrink slowly by a constant ratio.
 class Extrapolation {
  public:
   /// The start of the next round after one from `before` to `run.theta`.
@@ -392,13 +398,13 @@ class Extrapolation {
     }
     const double ratio = square > 0.0 ? dot / square : 0.0;
     constexpr double slow = 0.3;
-    constexpr double steady = 0.95;  // beyond it the steps do not shrink, and lead nowhere
+    constexpr double steady = 0.95;  // above it the steps hardly shrink and are not extrapolated
     std::vector<double> theta = run.theta;
     if (!(ratio > slow && ratio < steady)) {
       last_ = std::move(steps);
       return theta;
     }
-    last_.clear();  // the step after a leap says nothing about the series
+    last_.clear();  // a step after an extrapolation gives no ratio
     for (std::size_t j = 0; j < theta.size(); ++j) {
       const ParameterSlot& slot = model.slots[j];
       if (!slot.free || run.at_bound[j]) continue;
@@ -412,7 +418,7 @@ class Extrapolation {
   std::vector<double> last_;
 };
 
-/// -2 ln restricted likelihood but for a constant that the variance functions share.
+/// -2 ln restricted likelihood up to a constant that the variance functions share.
 double restricted_criterion(const ImpactModel& model, const ReweightedFit& result) {
   const LeastSquaresResult& run = result.run;
   const auto& points = result.data.points;
@@ -423,7 +429,8 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
   for (const Observation& point : points) {
     if (point.censored) continue;
     if (point.weights.scatter > 0.0)
-      criterion += point.weights.peak.deviance;  // the residual is what lies above
+      // The residual holds only the deviance above the peak.
+      criterion += point.weights.peak.deviance;
     criterion +=
         2.0 * std::log(point.weights.scatter > 0.0 ? point.weights.mean_sd : point.weights.sd);
   }
@@ -447,8 +454,7 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
   return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
 }
 
-/// @param limit ends the rounds once the restricted criterion, at the scale that would fit best,
-/// exceeds it
+/// @param limit ends the rounds if the restricted criterion, at the best scale, exceeds it
 ReweightedFit reweight_with(const ImpactModel& model, Observations data,
                             std::span<const double> start, const ReweightingOptions& options,
                             double limit = INFINITY) {
@@ -458,7 +464,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
   double& noise_scale = result.data.noise.scale;
   Extrapolation extrapolation;
   LeastSquaresOptions minimiser = options.minimiser;
-  minimiser.finish = false;  // not in every round
+  minimiser.finish = false;  // only after the last round
   const auto points = std::make_shared<PointPredictor>(model, result.data.conditions());
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = renew_weights(model, theta, *points, result.data);
@@ -471,7 +477,8 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     }
     result.run = minimise(impact_problem(model, result.data, nullptr, points), theta, minimiser);
     if (!result.run.ended()) return result;
-    minimiser.strategies = {Strategy::gauss_newton, Strategy::box_descent};  // near the answer
+    minimiser.strategies = {Strategy::gauss_newton,
+                            Strategy::box_descent};  // the next start is near the answer
     double scale = 1.0;
     if (!result.data.sd_stated) {
       const ConstantsInFit constants =
@@ -479,7 +486,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       const Misfit found =
           misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants);
       scale = found.scale();
-      // Data without noise would let the scale shrink for ever.
+      // For data without noise the scale would shrink without limit.
       const double rounding = result.data.noise.rounding_sd;
       result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
       if (result.at_rest) break;
@@ -500,7 +507,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
   return result;
 }
 
-/// The last digits, with the weights as they are.
+/// Refines a fit to the last digit with its weights fixed.
 ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
                        const LeastSquaresOptions& minimiser) {
   if (!minimiser.finish || !fit.run.ended()) return fit;
@@ -615,7 +622,8 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   std::vector<VarianceFunction> functions = {VarianceFunction::constant,
                                              VarianceFunction::proportional,
                                              VarianceFunction::capture, VarianceFunction::steep};
-  if (options.replicate) {  // the function of the original first: it probably fits best here, too
+  if (options
+          .replicate) {  // the function of the original first, as it probably fits best here, too
     std::stable_partition(functions.begin(), functions.end(), [&](VarianceFunction function) {
       return function == data.noise.variance;
     });
@@ -624,8 +632,8 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   double best_criterion = INFINITY;
   std::vector<double> from(start.begin(), start.end());
   std::vector<VarianceCandidate> candidates;
-  const VarianceCandidate* before =
-      nullptr;  // the original under the function of `candidates`.back
+  // The original under the function of candidates.back().
+  const VarianceCandidate* before = nullptr;
   for (const VarianceFunction function : functions) {
     Observations own = data;
     own.noise.variance = function;

@@ -14,13 +14,12 @@
 namespace recoil {
 namespace {
 
-constexpr double largest_error = 0.3;  // of e
-// A standard deviation from m deviations is known within a factor of 2.5 (95 %) from m = 5 on:
-// sqrt(5 / chi2) runs from 0.62 to 2.45.
+constexpr double largest_error = 0.3;  // largest sigma, an error of e [1]
+// With m >= 5 deviations a standard deviation is known within a factor of 2.5 (95 %): sqrt(5 /
+// chi2) ranges from 0.62 to 2.45.
 constexpr int fewest_deviations = 5;
 
-/// What the points of one setting say of their error, by their deviations of e in units of their
-/// own scatter.
+/// Weighted sums of the deviations of e from the prediction over the points of one setting.
 struct SettingMean {
   double weight = 0.0;  ///< sum of 1 / sd^2
   double sum = 0.0;     ///< sum of deviation / sd^2
@@ -40,7 +39,7 @@ std::map<std::size_t, SettingMean> means_of(const Observations& data,
     const WeightedResidual r = weighted_residual(point, predicted[i]);
     const double slope = slope_in_restitution(r, predicted[i]);
     if (!(slope > 0.0)) continue;
-    const double deviation = r.value / slope;  // of what was measured from what is predicted
+    const double deviation = r.value / slope;  // measured minus predicted e, to first order
     SettingMean& setting = means[point.setting];
     setting.weight += slope * slope;
     setting.sum += deviation * slope * slope;
@@ -50,8 +49,8 @@ std::map<std::size_t, SettingMean> means_of(const Observations& data,
   return means;
 }
 
-/// What tells the series apart, one function for each but the first: their differences are no error
-/// of settings.
+/// Indicator functions of all series but the first [functions][points]: differences between series
+/// are not errors of settings.
 std::vector<std::vector<double>> series_offsets(const Observations& data) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> offsets;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
@@ -66,8 +65,8 @@ std::vector<std::vector<double>> series_offsets(const Observations& data) {
   return functions;
 }
 
-/// The largest error of e that an error of the stated velocities makes, e sd_V / V; infinite where
-/// some point states none.
+/// The largest error of e that the stated errors of V cause, e sd_V / V [1]; infinite if a point
+/// with a known e states none.
 double stated_setting_error(const Observations& data) {
   double most = 0.0;
   for (const Observation& point : data.points) {
@@ -78,7 +77,8 @@ double stated_setting_error(const Observations& data) {
   return most;
 }
 
-/// Of the errors of these points: 1, and what bounces of one launch share, see `SharedSettings`.
+/// Correlation matrix of the errors of these points: the identity, with correlations between
+/// bounces of one launch (see `SharedSettings`).
 Eigen::MatrixXd correlations(const std::vector<Observation>& points,
                              const std::vector<std::size_t>& which) {
   const auto count = static_cast<Eigen::Index>(which.size());
@@ -110,7 +110,7 @@ double slope_in_restitution(const WeightedResidual& residual, double restitution
 }
 
 SharedSettings::SharedSettings(const std::vector<Observation>& points) {
-  // Every error is a column of U; those that have a point in common are of one block.
+  // Every shared error is a column of U; columns with a common point form one block.
   enum class Kind { setting, size, instants };
   using Source = std::tuple<Kind, std::size_t, std::size_t>;  // dataset; setting, series or launch
   std::map<Source, std::vector<Member>> columns;
@@ -126,7 +126,7 @@ SharedSettings::SharedSettings(const std::vector<Observation>& points) {
       columns[{Kind::instants, 0, points[i].launch}].push_back({i, 0.0});
     }
   }
-  std::map<std::size_t, std::size_t> block_of;  // of a point
+  std::map<std::size_t, std::size_t> block_of;  // block of a point
   std::vector<std::vector<const std::vector<Member>*>> blocks;
   for (const auto& [source, members] : columns) {
     const std::size_t own = blocks.size();
@@ -239,7 +239,7 @@ double estimated_setting_error(const Observations& data, std::span<const double>
       trend(at->second, k) = trends[static_cast<std::size_t>(k)][i];
     }
   }
-  // What is stated of single points holds unless they scatter more within their settings.
+  // The stated standard deviations hold unless the points scatter more within their settings.
   const double scatter = within / freedom;
   const double unit = data.sd_stated ? std::max(1.0, scatter) : scatter;
   const auto excess = [&](double error) {

@@ -30,8 +30,8 @@ double psi_slope(double dof, double r) {
   return (dof + 1.0) * (dof - r * r) / (q * q);
 }
 
-/// The scale at which t noise looks as large to psi as standard normal noise: E psi(scale t)^2 =
-/// E psi(z)^2, by the trapezoid rule in t = sinh(x), whose tails fall exponentially.
+/// The scale of t noise at which psi^2 has the same mean as for standard normal noise: E psi(scale
+/// t)^2 = E psi(z)^2, by the trapezoid rule in t = sinh(x), whose tails fall exponentially.
 double core_scale(const StudentNoise& student) {
   constexpr double step = 0.05;
   const int halves = static_cast<int>(std::ceil(40.0 / student.dof / step)) + 100;

@@ -11,17 +11,18 @@ namespace recoil {
 namespace {
 
 constexpr int most_iterations = 200;
-constexpr double at_rest = 1e-8;         // relative change of both factors
-constexpr double root_tolerance = 1e-9;  // relative, of each factor; Newton ends far below it
+constexpr double at_rest = 1e-8;  // relative change of both factors
+// Relative, of each factor; the error after the last Newton step is far smaller.
+constexpr double root_tolerance = 1e-9;
 
 struct Excess {
   double value;  // e^2 of the model minus e^2 of the point
   double slope;  // d value / d damping, negative
 };
 
-/// The damping in [0, upper] at which `excess`, which falls with damping, vanishes: Newton from
-/// `guess`, kept inside a bracket. Nullopt when the excess is negative even without damping, when
-/// it is positive under the largest damping, or when the model has no answer.
+/// The damping in [0, upper] at which `excess`, which falls with damping, vanishes, by Newton's
+/// method from `guess` within a bracket. Nullopt if the excess is negative without damping, if it
+/// is positive at the largest damping, or if an impact cannot be solved.
 template <class ExcessAt>
 std::optional<double> find_damping(const ExcessAt& excess_at, double guess, double upper) {
   constexpr int most_steps = 200;
@@ -42,7 +43,7 @@ std::optional<double> find_damping(const ExcessAt& excess_at, double guess, doub
     if (next <= 0.0 && !root_above_zero) {
       next = 0.0;
     } else if (!(next > low) || !(next < high)) {
-      // From below a root Newton may overshoot into the flat or captured range.
+      // From below a root, Newton's method may overshoot into the flat or captured range.
       next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
       if (high == upper && next > 0.5 * upper) next = upper;
     }
@@ -52,7 +53,7 @@ std::optional<double> find_damping(const ExcessAt& excess_at, double guess, doub
   return damping;
 }
 
-/// f0 is what the fit file fixes it at, else that of eq. 12, also where the full fit frees it.
+/// The adhesion that the fit file fixes; that of eq. 12 if the full fit frees it.
 double adhesion_of_two_points(const ImpactModel& model, std::size_t dataset) {
   const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
   return slot.free ? derived_adhesion(model, dataset) : slot.initial;
@@ -71,8 +72,9 @@ class CalibratedSphere {
     return impact_groups(conditions_at(model_, theta_, dataset_, diameter_, point.velocity)).beta;
   }
 
-  /// The factors at which the model gives e of both points, by Newton in both from `theta`. Nullopt
-  /// where a step leaves the bounds, Newton does not end, or the iteration would leave this place.
+  /// The damping factors at which the model gives the measured e of both points, by Newton's method
+  /// in both from `theta`. Nullopt if a step leaves the bounds, if Newton's method does not
+  /// converge, or if the paper's iteration would not converge there.
   std::optional<std::array<double, 2>> both_factors(const std::array<const Observation*, 2>& points,
                                                     const std::array<double, 2>& beta,
                                                     std::span<const double> theta) const {
@@ -104,7 +106,7 @@ class CalibratedSphere {
         if (!(factors[k] > 0.0 && factors[k] < model_.slots[slots[k]].upper)) return std::nullopt;
         rests = rests && std::abs(change) <= root_tolerance * factors[k];
       }
-      // The iteration ends where each factor follows the other by less than it moved.
+      // The paper's iteration converges here if a change of one factor changes the other by less.
       const bool draws =
           std::abs(slopes(0, 1) * slopes(1, 0)) < std::abs(slopes(0, 0) * slopes(1, 1));
       if (rests) return draws ? std::optional(factors) : std::nullopt;
@@ -130,7 +132,7 @@ class CalibratedSphere {
   std::vector<double> theta_;
 };
 
-/// Runs the iteration on the two points that `result` names; fills status, theta and iterations.
+/// Runs the iteration on the two points of `result`; sets its status, theta and iterations.
 void iterate(const ImpactModel& model, const Observations& data, std::size_t dataset,
              std::span<const double> near, TwoPointResult& result) {
   const Observation& low = data.points[result.low_point];

@@ -12,9 +12,9 @@ namespace recoil {
 /// How the paper's iteration ended.
 enum class TwoPointStatus {
   converged,
-  no_hertz_damping,     ///< at the highest velocity adhesion alone already costs more than measured
+  no_hertz_damping,     ///< at the highest velocity, adhesion alone loses more energy than measured
   no_adhesion_damping,  ///< no C_A >= 0 gives the e of the lowest velocity
-  not_converging,       ///< the iteration goes round or stops at its limit
+  not_converging,       ///< the iteration oscillates or reaches its limit
   too_few_points,
 };
 
@@ -25,20 +25,20 @@ struct NamesOf<TwoPointStatus> {
 };
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
-/// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives
-/// C_A, and so on until nothing changes. f0 is fixed by eq. 12, or by the fit file.
+/// C_H (with C_A = 0 at first), the point of the lowest gives C_A, and both steps repeat until the
+/// factors do not change. f0 is fixed by eq. 12 or by the fit file.
 struct TwoPointResult {
   TwoPointStatus status = TwoPointStatus::too_few_points;
   std::size_t low_point = 0;  ///< indices into the observations
   std::size_t high_point = 0;
-  double diameter = 0.0;      ///< of the series used [m]
-  std::vector<double> theta;  ///< [slots]; the last iterate when it did not converge
+  double diameter = 0.0;      ///< diameter of the points used [m]
+  std::vector<double> theta;  ///< [slots]; the last iterate if it did not converge
   int iterations = 0;
 };
 
 /// Runs the iteration on the points of `dataset` that are nearest to `diameter` [m].
-/// @param near theta near the answer: Newton in both factors from there finds where the iteration
-/// would end, in fewer steps; `iterations` is then 1. Where Newton fails, the iteration runs.
+/// @param near theta near the answer: Newton's method in both factors finds the limit of the
+///   iteration in fewer steps; `iterations` is then 1. The iteration runs if Newton's method fails.
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
                          double diameter, std::span<const double> near = {});
 

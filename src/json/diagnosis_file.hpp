@@ -34,7 +34,7 @@ struct DiagnosisFile {
   struct Cell {
     std::string dataset;
     double diameter_um = 0.0;
-    Ends incident_velocity = {};  ///< of the band [m/s]
+    Ends incident_velocity = {};  ///< ends of the band [m/s]
     int points = 0;
     std::optional<double> restitution, energy_J, standardised;
     std::string model_is;  ///< "too low" or "too high"
@@ -83,7 +83,7 @@ struct DiagnosisFile {
     std::optional<double> held_out_gain, held_out_log_score;
     bool plausible = true;
     double cost_of_possible = 0.0;
-    std::optional<std::string> aside;  ///< why it is not taken for a cause
+    std::optional<std::string> aside;  ///< why it is not accepted as a cause
     RECOIL_FIELDS(id, kind, parameters, p_value, delta_aicc, remaining_p, remaining_part,
                   held_out_gain, held_out_log_score, plausible, cost_of_possible, aside)
   };
@@ -131,7 +131,7 @@ struct DiagnosisFile {
 
   struct Experiment {
     ExperimentKind kind = ExperimentKind::points;
-    OrAbsent<Condition> condition;  ///< of that kind, as the next two
+    OrAbsent<Condition> condition;  ///< only of kind `condition`, like the next two
     OrAbsent<double> value;
     OrAbsent<std::string> doing;
     std::string dataset, series;
@@ -155,7 +155,7 @@ struct DiagnosisFile {
     ErrorSource id = ErrorSource::velocity_errors;
     double value = 0.0, delta_aicc = 0.0, remaining_p = 0.0;
     bool leave_nothing = false;
-    bool rival = false;  ///< would do in place of the answer, or beside it
+    bool rival = false;  ///< explains the data instead of the answer, or as well
     RECOIL_FIELDS(id, value, delta_aicc, remaining_p, leave_nothing, rival)
   };
 

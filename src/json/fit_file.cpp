@@ -69,7 +69,7 @@ std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter) {
 
 namespace {
 
-/// Were these values fitted to `datasets` as they are now?
+/// @throws InputError unless these values were fitted to the present `datasets`
 void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const std::string& path) {
   const auto same_id = [](const DatasetEntry& fitted, const Dataset& now) {
     return fitted.id == now.id;
@@ -116,7 +116,7 @@ std::vector<FittedValue> take_fitted_values(ImpactModel& model,
   const std::map<std::string, FittedValue> fitted = values_by_name(fit);
   std::vector<FittedValue> values;
   for (ParameterSlot& slot : model.slots) {
-    // An adhesion that follows the materials does so from what is stated of them.
+    // An adhesion that changes with the materials is computed from the stated ones.
     if (slot.derived && !slot.free && !model.constants.empty()) {
       values.push_back({slot.initial, std::nullopt});
       continue;

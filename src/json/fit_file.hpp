@@ -23,7 +23,7 @@ namespace recoil {
 /// Lower and upper end.
 using Ends = std::array<double, 2>;
 
-/// A dataset, as every result names it.
+/// A dataset of a result.
 struct DatasetEntry {
   std::string id, title;
   Provenance provenance = Provenance::measured;
@@ -34,13 +34,13 @@ struct DatasetEntry {
   RECOIL_FIELDS(id, title, provenance, provenance_sentence, points, sha256, sources)
 };
 
-/// One check of where the model holds.
+/// One check of the validity of the model.
 struct ValidityEntry {
   ValidityQuantity quantity = ValidityQuantity::contact_radius;
   std::optional<double> value;
   double limit = 0.0;
   std::string limit_is;   ///< "least" or "largest" good value
-  bool exceeded = false;  ///< true where the limit is exceeded: the model does not hold
+  bool exceeded = false;  ///< true: the limit is exceeded, and the model is not valid
   OrAbsent<std::string> dataset;
   OrAbsent<double> diameter_um, incident_velocity;  ///< [um], [m/s]
   std::string text;
@@ -48,21 +48,19 @@ struct ValidityEntry {
                 text)
 };
 
-/// `fit.json`: the result of one fit. SI units unless the name of a member says otherwise.
-/// docs/fit-json.md describes every key.
 /// A mean of e over a series of one diameter, or over one setting of it.
 struct RestitutionMeanEntry {
   std::string dataset, series;
   std::optional<std::string> setting;
   double diameter_um = 0.0;
-  std::optional<double> incident_velocity;  ///< of a setting
+  std::optional<double> incident_velocity;  ///< mean V of a setting [m/s]
   double value = 0.0;
   OrReason<Ends> interval;
   int points = 0;
   RECOIL_FIELDS(dataset, series, setting, diameter_um, incident_velocity, value, interval, points)
 };
 
-/// b of e = a_series + b log10 V [1/decade].
+/// The slope b of e = a_series + b log10 V [1/decade].
 struct VelocityDependenceEntry {
   OrReason<double> slope;
   std::optional<Ends> interval;
@@ -70,7 +68,7 @@ struct VelocityDependenceEntry {
   RECOIL_FIELDS(slope, interval, p_value)
 };
 
-/// Whether series differ, and by how much the two that differ most.
+/// The test for differences between series, and the largest difference.
 struct SeriesDifferEntry {
   OrReason<double> p_value;
   std::optional<std::array<std::string, 2>> most_different;
@@ -86,6 +84,8 @@ struct LossLawEntry {
   RECOIL_FIELDS(id, delta_aicc)
 };
 
+/// `fit.json`: the result of one fit. SI units unless the name of a member says otherwise.
+/// docs/fit-json.md describes every key.
 struct FitFile {
   struct Source {
     std::string id, sha256;
@@ -99,13 +99,13 @@ struct FitFile {
     RECOIL_FIELDS(initial, free, bounds)
   };
 
-  /// As used, after the command line and the defaults.
+  /// The options in use, from the fit file, the command line and the defaults.
   struct Options {
     AdhesionLaw adhesion = AdhesionLaw::ring;
     AdhesionDampingPhase adhesion_damping_phase = AdhesionDampingPhase::rebound;
-    std::string loss;  ///< of the dry contact, as chosen
+    std::string loss;  ///< loss of the dry contact in use
     std::vector<std::string> mechanisms;
-    bool mixed_sizes = false;  ///< points average over stated sizes
+    bool mixed_sizes = false;  ///< true: points average over stated sizes
     Json replicates;           ///< a number, or "auto"
     Scheme scheme = Scheme::automatic;
     double level = 0.0;
@@ -116,7 +116,7 @@ struct FitFile {
                   scheme, level, seed, materials, materials_adjusted, parameters)
   };
 
-  /// What the materials of one dataset give.
+  /// The contact properties that follow from the materials of one dataset.
   struct Contact {
     std::string dataset;
     std::optional<double> stiffness_K_Pa, stiffness_K_derived_Pa, adhesion_energy_J_per_m2,
@@ -137,16 +137,16 @@ struct FitFile {
     RECOIL_FIELDS(equation, adhesion, adhesion_damping_phase, contacts, separation_m)
   };
 
-  /// Which interval to quote, and why.
+  /// The interval to quote, and the reason.
   struct Recommended {
-    std::optional<std::string> interval;  ///< its key
+    std::optional<std::string> interval;  ///< key of the interval
     std::string why;
     RECOIL_FIELDS(interval, why)
   };
 
   struct Intervals {
     std::optional<Ends> wald, profile, percentile, bca, studentized;
-    Named<std::string> why;  ///< of those that are null
+    Named<std::string> why;  ///< reasons for the intervals that are null
     Recommended recommended;
     std::optional<Ends> posterior;
     RECOIL_FIELDS(wald, profile, percentile, bca, studentized, why, recommended, posterior)
@@ -193,7 +193,7 @@ struct FitFile {
                   budget, budget_linear, budget_sd_without_first_constant, materials_exact)
   };
 
-  /// A constant of the materials that is known with an error.
+  /// A material constant with a stated error.
   struct Constant {
     std::optional<double> value;
     std::string unit, meaning;
@@ -218,12 +218,14 @@ struct FitFile {
     std::optional<double> diameter_um;
     std::string unit;
     OrReason<double> value;
-    std::optional<double> lower_limit;  ///< where impacts were captured, and none in part
-    std::optional<double> upper_limit;  ///< where impacts rebounded, and none in part
+    /// Largest velocity with captures, if no point has both outcomes [m/s].
+    std::optional<double> lower_limit;
+    /// Smallest velocity without captures, if no point has both outcomes [m/s].
+    std::optional<double> upper_limit;
     std::optional<Ends> interval, interval_mc_error;
     CaptureIntervals intervals;
     Recommended recommended;
-    OrAbsent<std::string> why;  ///< there is no interval
+    OrAbsent<std::string> why;  ///< reason for a missing interval
     OrAbsent<std::vector<BudgetRow>> budget;
     OrAbsent<bool> budget_linear;
     OrAbsent<std::optional<double>> budget_sd_without_first_constant;
@@ -294,7 +296,7 @@ struct FitFile {
     RECOIL_FIELDS(dataset, diameter_um, incident_velocity, points, relative_sd)
   };
 
-  /// What the points determine, direction by direction, and what more of them would add.
+  /// The information of the points by direction, and the effect of more points.
   struct Information {
     std::vector<Direction> directions;
     Named<std::optional<double>> relative_sd;
@@ -388,14 +390,15 @@ struct FitFile {
                   held_out_rmse, failed)
   };
 
-  /// The full fit, compared in the same way.
+  /// The full fit, for comparison with two points.
   struct Full {
     OrReason<double> rmse, held_out_rmse;
     OrAbsent<Named<std::optional<double>>> spread;
     RECOIL_FIELDS(rmse, held_out_rmse, spread)
   };
 
-  /// A way to the three parameters of the paper's model; f0 at the reference diameter.
+  /// One method of estimating the three parameters of the paper's model; f0 at the reference
+  /// diameter.
   struct Compared {
     std::string dataset;
     ComparisonWay id = ComparisonWay::two_point;
@@ -421,7 +424,7 @@ struct FitFile {
     RECOIL_FIELDS(dataset, series, diameter_um, incident_velocity, restitution, band, two_point)
   };
 
-  /// One point of the data, and what the fit gives for it.
+  /// One point of the data with its residual.
   struct Residual {
     std::string dataset, series;
     std::optional<double> diameter_um, incident_velocity, restitution, restitution_sd, sd_used,
@@ -449,12 +452,12 @@ struct FitFile {
   std::string recoil_version;
   Source fit;
   std::string provenance_sentence;
-  DatasetEntry dataset;  ///< of several: as one, with the provenance that claims least
+  DatasetEntry dataset;  ///< several datasets combined into one, with the weakest provenance
   std::vector<DatasetEntry> datasets;
   std::vector<RestitutionMeanEntry> restitution_summary;
   VelocityDependenceEntry velocity_dependence;
   SeriesDifferEntry series_differ;
-  std::vector<LossLawEntry> loss_laws;  ///< the best first; empty where the fit file names one
+  std::vector<LossLawEntry> loss_laws;  ///< the best first; empty if no choice was made
   Options options;
   Model model;
   Named<Parameter> parameters;
@@ -485,13 +488,13 @@ struct FitFile {
                 full, two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
 };
 
-/// The interval of a parameter that is to be quoted; nullopt where there is none.
+/// The interval of a parameter to quote; nullopt if there is none.
 std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter);
 
 /// Reads the text of a fit.json.
-/// @param file names it in messages
-/// @param reader the program part that reads it, for messages: "recoil compare"
-/// @throws InputError when it is not JSON, not the result of a fit, or has another format_version
+/// @param file name of the file, for messages
+/// @param reader the command that reads it, for messages: "recoil compare"
+/// @throws InputError if it is not JSON, not the result of a fit, or has another format_version
 FitFile read_fit_file(const std::string& file, const std::string& text, const std::string& reader);
 
 /// One parameter of a fit.json.
@@ -500,14 +503,14 @@ struct FittedValue {
   std::optional<double> std_error;
 };
 
-/// `spec` with the loss of the dry contact that the fit.json `path` has, where the fit file leaves
-/// it to the points. An empty path changes nothing.
-/// @throws InputError when it is no fit.json
+/// `spec` with the loss of the dry contact from the fit.json `path`, if the fit file leaves the
+/// loss to the points. An empty path changes nothing.
+/// @throws InputError if the file is not a fit.json
 FitSpec with_fitted_loss(FitSpec spec, const std::string& path);
 
 /// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots].
-/// @param datasets those of the fit file: the values have to be fitted to these very files
-/// @throws InputError when it is none, or that of another fit
+/// @param datasets the datasets of the fit file; the values must have been fitted to the same files
+/// @throws InputError if the file is not a fit.json, or belongs to another fit
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
                                             const std::string& path);

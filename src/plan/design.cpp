@@ -6,11 +6,11 @@
 namespace recoil {
 namespace {
 
-constexpr int most_rounds = 5000;        // of the multiplicative algorithm
-constexpr double excess_at_end = 0.002;  // of a point's worth over the average
-constexpr double no_share = 1e-9;        // below it a point is left out
+constexpr int most_rounds = 5000;        // iterations of the multiplicative algorithm
+constexpr double excess_at_end = 0.002;  // relative excess of the largest d_i over the average
+constexpr double no_share = 1e-9;        // points with a smaller share are omitted
 constexpr int most_exchanges = 500;
-constexpr double worth_exchanging = 1e-6;  // of the sum of the variances
+constexpr double worth_exchanging = 1e-6;  // least relative decrease of the sum of the variances
 
 constexpr double singular = 1e-14;  // reciprocal condition
 
@@ -99,7 +99,7 @@ std::vector<int> whole_points(const std::vector<double>& shares, int points) {
         0, static_cast<int>(std::ceil((points - 0.5 * static_cast<double>(made)) * shares[i])));
     total += counts[i];
   }
-  // The next to be added has the smallest n / w, the next to be taken away the largest (n - 1) / w.
+  // Adds the point with the smallest n / w, or removes the one with the largest (n - 1) / w.
   for (; total != points; total += total < points ? 1 : -1) {
     const bool add = total < points;
     std::size_t best = shares.size();

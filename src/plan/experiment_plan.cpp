@@ -18,17 +18,18 @@
 namespace recoil {
 namespace {
 
-constexpr int grid_velocities = 48;  // of each diameter
-constexpr int fewest_points = 10;    // where the wanted error decides
-// Range of velocities where none is stated, over the smallest and the largest capture velocity.
+constexpr int grid_velocities = 48;  // velocities of each diameter
+constexpr int fewest_points = 10;    // least number of points if the wanted error decides
+// The default range of velocities, relative to the smallest and the largest capture velocity.
 constexpr double below_capture = 0.8, above_capture = 30.0;
-constexpr double hopeless_points = 1e6;  // where they leave an error of 100 %, refuse to plan
-constexpr double least_share = 0.05;     // of LearntAt
-// Part of the information of points everywhere that is added when one quantity is planned alone,
-// because its best experiment can leave other parameters undetermined.
+// A plan is refused if this number of points leaves an error of 100 %.
+constexpr double hopeless_points = 1e6;
+constexpr double least_share = 0.05;  // least share in LearntAt
+// Fraction of the information of evenly spaced points that is added in the plan for a single
+// quantity, because its best experiment can leave other parameters undetermined.
 constexpr double share_of_everywhere = 1e-9;
 
-/// Rounded to three digits, as a velocity is set.
+/// The velocity rounded to three digits.
 double as_set(double velocity) {
   const double unit = std::pow(10.0, std::floor(std::log10(velocity)) - 2.0);
   return *parse_number(fmt::format("{:.3g}", std::round(velocity / unit) * unit));
@@ -60,7 +61,7 @@ std::vector<PlannedSize> planned_sizes(const ImpactModel& model, const std::vect
   return sizes;
 }
 
-/// Derives the range of velocities from the capture velocities where none is stated.
+/// Sets the range of velocities from the capture velocities if none is stated.
 void complete_range(const FitSpec& spec, const std::vector<PlannedSize>& sizes,
                     PlanOptions& options) {
   if (options.slowest > 0.0) return;
@@ -80,7 +81,7 @@ void complete_range(const FitSpec& spec, const std::vector<PlannedSize>& sizes,
   options.fastest = as_set(above_capture * most);
 }
 
-/// The points of `dataset` will scatter as the options and the errors of the fit file say.
+/// The scatter of the planned points of `dataset`, from the options and the errors in the fit file.
 PlannedScatter planned_scatter(const PlanOptions& options, const NoiseSpec& noise,
                                const Dataset& dataset) {
   PlannedScatter scatter;
@@ -106,7 +107,7 @@ std::vector<double> spaced(double from, double to, int count) {
   return velocities;
 }
 
-/// Places, and how many points to measure at each.
+/// Possible points, and the number of points to measure at each.
 struct PlacedPoints {
   PossiblePoints points;
   std::vector<int> counts;
@@ -135,7 +136,7 @@ void add_settings(const PlacedPoints& placed, std::vector<PlannedSetting>& setti
   }
 }
 
-/// All of these points as settings, sorted by dataset, diameter and velocity.
+/// All planned points as settings, sorted by dataset, diameter and velocity.
 std::vector<PlannedSetting> settings_of(const std::vector<PlacedPoints>& all) {
   std::vector<PlannedSetting> settings;
   for (const PlacedPoints& placed : all) add_settings(placed, settings);
@@ -154,7 +155,7 @@ std::vector<double> counts_of(const std::vector<PlannedSetting>& settings) {
   return counts;
 }
 
-/// Fills in `settings`, `quantities` and the totals of a plan.
+/// Computes `settings`, `quantities` and the totals of a plan.
 class Planner {
  public:
   Planner(const FitSpec& spec, ExperimentPlan& plan)
@@ -176,7 +177,7 @@ class Planner {
     require_determined();
   }
 
-  /// As many points as are asked for, or the fewest that give the wanted error.
+  /// Plans the requested number of points, or the fewest that give the wanted error.
   void choose_settings() {
     const int events = plan_.options.events;
     const int free = plan_.model.free_count();
@@ -197,7 +198,7 @@ class Planner {
     plan_.impacts = plan_.points * events;
   }
 
-  /// The errors of all quantities under the chosen settings.
+  /// Computes the errors of all quantities under the chosen settings.
   void find_errors() {
     const DesignProblem made = problem_of(plan_.settings);
     const std::vector<double> counts = counts_of(plan_.settings);
@@ -262,8 +263,8 @@ class Planner {
     }
   }
 
-  /// Points evenly spaced in ln V above the capture velocity, as many of each diameter. Diameters
-  /// that are captured at every velocity are left out.
+  /// Points evenly spaced in ln V above the capture velocity, with equal numbers for each diameter.
+  /// Diameters that are captured at every velocity are omitted.
   PlacedPoints evenly(int points) const {
     std::vector<const PlannedSize*> returning;
     const double fastest = plan_.options.fastest;
@@ -350,7 +351,7 @@ class Planner {
         plan_.options.slowest, plan_.options.fastest, fmt::join(lost, " and ")));
   }
 
-  /// `points` points: the evenly spaced share, and the best choice of the rest.
+  /// The settings of `points` points: an evenly spaced share, and the best choice for the others.
   std::vector<PlannedSetting> settings_for(int points) const {
     const int checks = static_cast<int>(std::round(plan_.options.checks * points));
     const PlacedPoints checking = evenly(checks);
@@ -390,7 +391,7 @@ class Planner {
     return variances_of(problem_of(settings), counts_of(settings)).maxCoeff() <= wanted_variance();
   }
 
-  /// The factor on `counts` that gives quantity `q` the wanted error; nullopt where none does.
+  /// The factor on `counts` that gives quantity `q` the wanted error; nullopt if there is none.
   std::optional<double> factor_for(const DesignProblem& problem, const std::vector<double>& counts,
                                    Eigen::Index q) const {
     const auto enough = [&](double factor) {
@@ -408,7 +409,7 @@ class Planner {
     return many;
   }
 
-  /// The places of the largest shares; neighbours on the grid are merged.
+  /// The velocities and diameters with the largest shares; neighbours on the grid are merged.
   std::vector<LearntAt> places_of(const std::vector<double>& shares) const {
     std::vector<LearntAt> places;
     bool open = false;
@@ -432,10 +433,10 @@ class Planner {
   ExperimentPlan& plan_;
   std::vector<PlannedSize> sizes_;
   PlannedParameters parameters_;
-  std::vector<PlannedScatter> scatter_;  // of each dataset
+  std::vector<PlannedScatter> scatter_;  // per dataset
   Eigen::MatrixXd asked_;                // one column for each quantity
   PossiblePoints grid_;
-  DesignProblem problem_;  // of the grid
+  DesignProblem problem_;  // design problem of the grid
 };
 
 /// Puts one point for each setting into the datasets of the plan, with the expected results.

@@ -11,61 +11,61 @@
 
 namespace recoil {
 
-/// What a plan assumes. The defaults are guesses: replace them by what is known.
+/// The assumptions of a plan. The defaults are guesses; replace them by known values.
 struct PlanOptions {
-  /// Incident velocities that can be set [m/s]; 0: from 0.8 times the smallest to 30 times the
-  /// largest capture velocity, or those of the existing points.
+  /// Range of possible incident velocities [m/s]; 0: that of the existing points, or from 0.8 times
+  /// the smallest to 30 times the largest capture velocity.
   double slowest = 0.0, fastest = 0.0;
   std::vector<double> diameters;  ///< [m]; empty: those of the existing points
   double scatter = 0.05;          ///< sd of e of one impact, over e: 0.05 to 0.1 is usual [1]
   double floor = 0.01;            ///< the part of that sd that does not depend on e [1]
   double spread = 0.05;           ///< relative sd of the capture velocity from impact to impact [1]
   int events = 20;                ///< impacts averaged in one point
-  int impacts = 0;                ///< of the whole plan; 0: as many as the wanted error takes
+  int impacts = 0;                ///< total number of impacts; 0: as many as the wanted error needs
   double error = 0.1;             ///< wanted relative standard error of every quantity [1]
-  double checks =
-      0.25;  ///< share of the points that are evenly spaced, to reveal a wrong model [1]
+  /// Share of the points that are evenly spaced, to reveal a wrong model [1].
+  double checks = 0.25;
 };
 
-inline constexpr int most_planned_impacts = 10000;  ///< where the wanted error decides
+inline constexpr int most_planned_impacts = 10000;  ///< limit if the wanted error decides
 
 /// Points to be measured at one velocity and diameter.
 struct PlannedSetting {
   std::size_t dataset = 0;
   double diameter = 0.0;     ///< [m]
   double velocity = 0.0;     ///< incident velocity [m/s]
-  int points = 0;            ///< of PlanOptions::events impacts each
+  int points = 0;            ///< number of points, each of PlanOptions::events impacts
   double restitution = 0.0;  ///< expected mean e of the rebounds [1]
-  double sd = 0.0;           ///< of that mean over all points; 0 where hardly any rebound [1]
-  double captured = 0.0;     ///< expected share of the impacts [1]
+  double sd = 0.0;        ///< sd of that mean over all points [1]; 0 if hardly any sphere rebounds
+  double captured = 0.0;  ///< expected captured share of the impacts [1]
 };
 
-/// What an experiment is to determine.
+/// The kind of a quantity that an experiment determines.
 enum class PlannedKind { parameter, capture_velocity };
 template <>
 struct NamesOf<PlannedKind> {
   static constexpr std::array<std::string_view, 2> names = {"parameter", "capture_velocity"};
 };
 
-/// A place of the best experiment for one quantity alone.
+/// A part of the best experiment for a single quantity.
 struct LearntAt {
   std::size_t dataset = 0;
   double diameter = 0.0;  ///< [m]
   double velocity = 0.0;  ///< [m/s]
-  double share = 0.0;     ///< of the impacts of that experiment [1]
+  double share = 0.0;     ///< share of the impacts of that experiment [1]
 };
 
 struct PlannedQuantity {
   PlannedKind kind = PlannedKind::parameter;
-  std::string label;  ///< of a parameter
+  std::string label;  ///< name of a parameter
   std::string unit;
   std::size_t dataset = 0;
-  double diameter = 0.0;     ///< of a capture velocity [m]
-  double value = 0.0;        ///< assumed, or derived from the assumed parameters [unit]
+  double diameter = 0.0;     ///< diameter of a capture velocity [m]
+  double value = 0.0;        ///< assumed value, or derived from the assumed parameters [unit]
   double error = 0.0;        ///< relative standard error under the plan [1]
-  double plain_error = 0.0;  ///< under as many points evenly spaced in ln V [1]
+  double plain_error = 0.0;  ///< the same for equally many points evenly spaced in ln V [1]
   /// Impacts for the wanted error: in the proportions of the plan, evenly spaced, and if this were
-  /// the only quantity. nullopt where no number is enough.
+  /// the only quantity. nullopt if no number is enough.
   std::optional<double> impacts, plain_impacts, alone_impacts;
   std::vector<LearntAt> learnt_at;  ///< the largest share first
 };
@@ -76,33 +76,33 @@ struct ExperimentPlan {
   std::string fit;                ///< id of the fit file
   std::vector<Dataset> datasets;  ///< with one point for each setting
   ImpactModel model;
-  std::vector<double> theta;  ///< assumed [slots]
+  std::vector<double> theta;  ///< assumed parameters [slots]
   std::vector<PlannedSetting> settings;
   std::vector<PlannedQuantity> quantities;
   int points = 0;
   int impacts = 0;
   bool reached = false;  ///< every quantity has the wanted error
-  /// A lower bound of the efficiency: the sum of relative variances that no plan can undercut, over
-  /// the sum of this plan [1].
+  /// A lower bound of the efficiency: the lower bound of the sum of relative variances for any
+  /// plan, over the sum of this plan [1].
   double efficiency = 0.0;
 };
 
-/// The datasets as the experiment will find them: their materials and conditions, with one series
-/// and one stand-in point for each diameter. f0 keeps its reference diameter; where none is
-/// stated, it is the median of the existing points, or else of the planned diameters.
+/// The datasets of a planned experiment: materials and conditions, with one series and one
+/// placeholder point for each diameter. f0 keeps its reference diameter; if none is stated, it is
+/// the median of the existing points, or else of the planned diameters.
 /// @param diameters [m]; empty: those of each dataset's own points
-/// @throws InputError where no diameter is known
+/// @throws InputError if no diameter is known
 std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,
                                       const std::vector<double>& diameters);
 
 /// The points (V, d) that minimise the sum of the relative variances of all free parameters and of
 /// the capture velocity of every diameter, chosen from 48 velocities of each diameter. Variances
-/// are linearised at `theta`. A part of the points is evenly spaced in ln V. Where that gives a
-/// larger sum than points that are all evenly spaced, the plan is those.
+/// are linearised at `theta`. The share `checks` of the points is evenly spaced in ln V. If evenly
+/// spacing all points gives a smaller sum, the plan does that.
 /// @param datasets of `datasets_to_plan`
-/// @param options with velocities where `datasets` had no points of their own
-/// @throws InputError where no parameter is free or no velocity is known; ComputationError where no
-///   number of points determines a parameter
+/// @param options plan options; velocities are needed if `datasets` had no points of their own
+/// @throws InputError if no parameter is free or no velocity is known
+/// @throws ComputationError if no number of points determines a parameter
 ExperimentPlan plan_experiment(const FitSpec& spec, std::vector<Dataset> datasets,
                                const std::vector<double>& theta, PlanOptions options);
 

@@ -17,8 +17,9 @@
 namespace recoil {
 namespace {
 
-constexpr double near_capture = 30.0;  // in units of the scatter of e^2: see `renew_weights`
-constexpr double far_out = 35.0;       // standard deviations, where phi is 0
+// e^2 over its scatter up to which counts matter, see `reweighted_fit`.
+constexpr double near_capture = 30.0;
+constexpr double far_out = 35.0;  // standard deviations beyond which phi is 0
 
 /// phi^2 / (Phi(z) Phi(-z)): the information of one capture or rebound about z.
 double information_of_a_count(double z) {
@@ -69,7 +70,7 @@ PointOutlook point_outlook(double m, double m_V, double m_d, const PlannedScatte
   const double spread = s > 0.0 ? 0.5 * s / found.restitution : 0.0;  // m is above 30 s
   const double variance = (own * own + spread * spread) / by.events;
   if (m > 0.0) found.sd = std::sqrt(variance);
-  // 4 psi^2, psi that of `weighted_residual`; for m far below zero the sum cancels.
+  // 4 psi^2 with psi of `weighted_residual`; for m far below zero the sum would cancel.
   const double hypotenuse = std::hypot(m, variance);
   const double four_psi_squared =
       m >= 0.0 ? 2.0 * (m + hypotenuse) : 2.0 * variance * variance / (hypotenuse - m);

@@ -30,7 +30,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Does `name` speak of `material`, in whole words?
+/// Does `name` contain `material` as whole words?
 bool names(const std::string& name, const std::string& material) {
   const std::string text = lower_case(name);
   const std::string word = lower_case(material);
@@ -47,7 +47,8 @@ bool names(const std::string& name, const std::string& material) {
 }  // namespace
 
 const std::vector<PublishedCapture>& published_captures() {
-  // The composition of the fly ash changes with its size, so its three values are no size law.
+  // The composition of the fly ash changes with its size, so its three values do not show a law of
+  // size.
   static const std::vector<PublishedCapture> all = {
       {"fly ash", "planar surface", 88 * um, 1.92, true, "measured", energies},
       {"fly ash", "planar surface", 96 * um, 1.25, true, "measured", energies},
@@ -82,7 +83,7 @@ std::optional<PublishedYield> published_yield_pressure(const Material& particle)
 
 namespace {
 
-/// [m/s]; not a number where there is no answer.
+/// Capture velocities of the fit [m/s]; NaN without one.
 std::vector<double> fitted_velocities(const ImpactModel& model, std::span<const double> theta,
                                       std::size_t dataset, const std::vector<double>& diameters) {
   std::vector<CaptureQuery> queries;
@@ -116,8 +117,8 @@ CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
   return curve;
 }
 
-/// Drops the diameters at which the fit has no capture velocity, or no band where it has one
-/// elsewhere.
+/// Removes the diameters at which the fit has no capture velocity, or no band although others have
+/// one.
 void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
   std::vector<double> diameters;
   CaptureCurve kept = fit;

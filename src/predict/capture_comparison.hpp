@@ -13,7 +13,7 @@
 
 namespace recoil {
 
-/// A capture velocity that is published as a number. No uncertainty is given in what could be read.
+/// A published capture velocity. None of the sources states an uncertainty.
 struct PublishedCapture {
   std::string particle;   ///< material
   std::string surface;    ///< material
@@ -24,22 +24,22 @@ struct PublishedCapture {
   std::string source;
 };
 
-/// All that are known to this program.
+/// All published capture velocities in this program.
 const std::vector<PublishedCapture>& published_captures();
 
-/// Those of a particle and a surface of these materials, by the names that a dataset gives them
-/// ("316 stainless steel" is stainless steel, "silicon [100]" silicon).
+/// Those for a particle and a surface of these materials, by the names in a dataset ("316 stainless
+/// steel" is stainless steel, "silicon [100]" silicon).
 std::vector<PublishedCapture> published_captures_for(const Material& particle,
                                                      const Material& surface);
 
-/// A published yield pressure p_Y [Pa] of a material, with where it stands.
+/// A published yield pressure p_Y of a material, with its source.
 struct PublishedYield {
   double pressure = 0.0;  ///< [Pa]
   std::string source;
 };
 std::optional<PublishedYield> published_yield_pressure(const Material& particle);
 
-/// What gives a capture velocity.
+/// The model of a capture velocity.
 enum class CaptureModel { fit, jkr, thornton_ning, dahneke, wall };
 template <>
 struct NamesOf<CaptureModel> {
@@ -47,45 +47,45 @@ struct NamesOf<CaptureModel> {
                                                             "dahneke", "wall"};
 };
 
-/// Capture velocity against diameter by one model.
+/// Capture velocity against diameter from one model.
 struct CaptureCurve {
   CaptureModel model = CaptureModel::fit;
-  std::vector<double> velocity;      ///< [m/s], one per diameter; 0: nothing is captured
-  std::vector<double> lower, upper;  ///< band of the bootstrap [m/s]; empty where there is none
+  std::vector<double> velocity;      ///< [m/s], one per diameter; 0: no sphere is captured
+  std::vector<double> lower, upper;  ///< bootstrap band [m/s]; empty without one
 };
 
-/// What a fit and the older models say about one system.
+/// The capture velocities of one system from the fit and from older models.
 struct CaptureComparison {
   std::size_t dataset = 0;
   std::vector<double> diameter;  ///< [m], ascending
   std::vector<CaptureCurve> curves;
   std::vector<PublishedCapture> published;
-  // What the models rest on beside the fit.
+  // Inputs of the older models.
   double adhesion_energy = 0.0;         ///< W_A [J/m2]
   double stiffness = 0.0;               ///< K [Pa]
-  std::optional<PublishedYield> yield;  ///< none: `thornton_ning` has no curve
-  double restitution = 0.0;             ///< the largest of the fitted curve [1]; 0 where nothing
-                                        ///< rebounds: `dahneke` and `wall` have no curve
-  std::size_t unanswered = 0;  ///< diameters, left out, at which no sphere rebounds under the fit,
-                               ///< or under more than a tenth of its replicates
+  std::optional<PublishedYield> yield;  ///< nullopt: `thornton_ning` has no curve
+  double restitution = 0.0;    ///< largest e of the fitted curve [1]; 0 if no sphere rebounds:
+                               ///< `dahneke` and `wall` then have no curve
+  std::size_t unanswered = 0;  ///< number of omitted diameters, at which V* is missing for the fit
+                               ///< or for more than 10 % of its replicates
 };
 
 struct CaptureComparisonOptions {
-  double level = 0.95;   ///< of the band
+  double level = 0.95;   ///< level of the band
   int threads = 0;       ///< 0: all cores
-  int diameters = 25;    ///< of every curve, log-spaced
-  double widened = 1.5;  ///< the range goes this factor beyond the diameters of the data [1]
-  int replicates = 499;  ///< of the bootstrap that make the band, at most
-  /// Further diameters (dataset, [m]) that its range should hold, such as those of a mixture.
+  int diameters = 25;    ///< number of diameters of every curve, log-spaced
+  double widened = 1.5;  ///< factor by which the range exceeds the diameters of the data [1]
+  int replicates = 499;  ///< largest number of bootstrap replicates for the band
+  /// Additional diameters (dataset, [m]) for the range to include, such as those of a mixture.
   std::vector<std::pair<std::size_t, double>> include;
 };
 
-/// One comparison for every dataset of a fit; without adhesion there is none.
+/// One comparison for every dataset of a fit that has adhesion.
 ///
-/// The models of Dahneke and Wall need the restitution of the contact itself and the energies of
-/// the bond, which their authors took from elsewhere. Here e is the largest restitution that the
-/// fitted curve reaches in the range of the data at the reference diameter, and the energies are
-/// those of the JKR contact, so that both become JKR's velocity for e = 1.
+/// The models of Dahneke and Wall need the restitution of the contact and the energies of the bond,
+/// which their authors took from other sources. Here e is the largest restitution of the fitted
+/// curve up to the fastest point at the reference diameter, and the energies are those of the JKR
+/// contact, so that both models give the JKR velocity for e = 1.
 std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
                                                 const std::vector<Dataset>& datasets,
                                                 const BootstrapResult& bootstrap,

@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// U of the header, for alpha^3 = `cube`.
+/// U(alpha) of the header, for alpha^3 = `cube`.
 double stored(double cube) {
   const double alpha = std::cbrt(cube);
   return 8.0 / 15.0 * std::pow(alpha, 5.0) -
@@ -52,11 +52,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// Spheres that need a contact this much wider than the one at touch do not come back at any
-/// velocity at which they still are spheres.
+/// Largest contact radius over the radius at touch. A sphere that needs a larger one to rebound is
+/// captured at any velocity at which it remains a sphere.
 constexpr double widest = 1e3;
 
-/// The contact of an adhesive sphere that yields, over its radius a [m].
+/// The contact of an adhesive sphere that yields, as a function of the contact radius a [m].
 class YieldingContact {
  public:
   YieldingContact(const CaptureContact& contact, double yield_pressure)
@@ -65,7 +65,7 @@ class YieldingContact {
         W_(contact.adhesion_energy),
         p_(yield_pressure) {}
 
-  /// Where the contact opens, at n = 0.
+  /// The contact radius at touch, at n = 0 [m].
   double at_touch() const { return std::cbrt(2.0 * pi * W_ * R_ * R_ / E_); }
 
   /// Work of loading from touch to `a` [J].
@@ -73,8 +73,8 @@ class YieldingContact {
     return work(at_touch(), a, R_, [&](double r) { return force(r); });
   }
 
-  /// Work given back from `a` to where the contact parts, along JKR with the flattened radius [J];
-  /// negative where pulling it apart takes more.
+  /// Work recovered from `a` until the contact separates, by JKR with the flattened radius [J];
+  /// negative if separation costs more.
   double unloading(double a) const {
     const double flattened = 4.0 * E_ * a * a * a / (3.0 * (force(a) + adhesive(a)));
     const double parts = std::cbrt(pi * W_ * flattened * flattened / (8.0 * E_));
@@ -86,8 +86,8 @@ class YieldingContact {
  private:
   double adhesive(double a) const { return std::sqrt(8.0 * pi * W_ * E_ * a * a * a); }
 
-  /// Force of the pressure c_1 s - c_2 / s, s = (1 - r^2 / a^2)^(1/2), cut off at p_Y: less than
-  /// that of JKR by the integral of what is cut off, over s from where it begins to 1.
+  /// Force of the pressure c_1 s - c_2 / s, s = (1 - r^2 / a^2)^(1/2), limited to p_Y: the JKR
+  /// force minus the integral of the excess pressure, over s from where it begins to 1.
   double force(double a) const {
     const double elastic = 4.0 * E_ * a * a * a / (3.0 * R_) - adhesive(a);
     const double c1 = 2.0 * E_ * a / (pi * R_);
@@ -98,7 +98,7 @@ class YieldingContact {
     return elastic - 2.0 * pi * a * a * cut_off;
   }
 
-  /// Integral of F dn along n = a^2 / radius - (2 pi W a / E*)^(1/2), in panels that grow with a.
+  /// Integral of F dn along n = a^2 / radius - (2 pi W a / E*)^(1/2), in panels proportional to a.
   template <class Force>
   double work(double from, double to, double radius, Force force_at) const {
     static const std::vector<QuadratureNode> nodes = gauss_legendre(8);
@@ -126,7 +126,7 @@ class YieldingContact {
 double thornton_ning_plastic_velocity(const CaptureContact& contact, double yield_pressure) {
   if (!(contact.adhesion_energy > 0.0)) return 0.0;
   const YieldingContact sphere(contact, yield_pressure);
-  // From the first contact that gives back more than its parting takes.
+  // Starts from the first contact that recovers more work than its separation costs.
   constexpr double step = 1.05;
   double low = sphere.at_touch();
   double high = low * step;

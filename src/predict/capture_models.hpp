@@ -5,10 +5,10 @@
 /// Capture velocities of older models.
 namespace recoil {
 
-/// What the older capture models ask of one sphere on one surface, in SI units.
+/// The inputs of the older capture models for one sphere on one surface, in SI units.
 struct CaptureContact {
   double diameter = 0.0;         ///< [m]
-  double density = 0.0;          ///< of the sphere [kg/m3]
+  double density = 0.0;          ///< density of the sphere [kg/m3]
   double reduced_modulus = 0.0;  ///< E* = (3/4) K [Pa]
   double adhesion_energy = 0.0;  ///< w = W_A, the work of adhesion [J/m2]
 
@@ -22,16 +22,16 @@ CaptureContact capture_contact(const ContactProperties& contact, double diameter
 /// The capture velocity of Dahneke (1975), J. Colloid Interface Sci. 51, 58-65, as eq. 1 of Li,
 /// Dunn & Brach (1999):
 ///   V* = [(2 / (m e^2)) (E_r - e^2 E_i)]^(1/2),
-/// where e is the restitution of the contact itself, the incident energy counted with what the
-/// adhesion adds on the way in (eq. 2):
-///   e = [(m V_r^2 / 2) / (m V_i^2 / 2 + E_i)]^(1/2) where nothing is to be paid on the way out.
-/// Both energies are positive: E_i is gained on the way in, E_r to be paid on the way out.
+/// where e is the restitution of the contact, whose incident energy includes the energy gained from
+/// adhesion on approach (eq. 2):
+///   e = [(m V_r^2 / 2) / (m V_i^2 / 2 + E_i)]^(1/2) if no energy is lost to adhesion on rebound.
+///   Both energies are positive: E_i is gained on approach, E_r is lost on rebound.
 ///
 /// @param mass m [kg], > 0
 /// @param restitution e [1], 0 < e <= 1
 /// @param incident_energy E_i [J], >= 0
 /// @param rebound_energy E_r [J], >= 0
-/// @return V* [m/s]; 0 where E_r <= e^2 E_i, because then nothing is captured
+/// @return V* [m/s]; 0 if E_r <= e^2 E_i, as no sphere is then captured
 double dahneke_capture_velocity(double mass, double restitution, double incident_energy,
                                 double rebound_energy);
 
@@ -43,44 +43,44 @@ double dahneke_capture_velocity(double mass, double restitution, double incident
 ///   P = 4 E* a^3 / (3 R) - sqrt(8 pi w E*) a^(3/2),   delta = a^2 / R - sqrt(2 pi w a / E*),
 /// so that with a = alpha (w R^2 / E*)^(1/3) the energy stored against P is
 ///   U(alpha) = (8/15) alpha^5 - (4/3) sqrt(2 pi) alpha^(7/2) + pi alpha^2.
-/// The contact closes at delta = 0 (alpha^3 = 2 pi), rests at P = 0 (alpha^3 = 9 pi / 2) and breaks
-/// where d delta / d alpha = 0 (alpha^3 = pi / 8).
+/// The contact forms at delta = 0 (alpha^3 = 2 pi), is in equilibrium at P = 0 (alpha^3 = 9 pi / 2)
+/// and breaks at d delta / d alpha = 0 (alpha^3 = pi / 8).
 struct JkrEnergies {
-  double incident = 0.0;  ///< gained from first touch to the depth of the well: 4.60 units [J]
-  double rebound = 0.0;   ///< to be paid from that depth to separation: 11.69 units [J]
+  double incident = 0.0;  ///< gained from first touch to equilibrium: 4.60 units [J]
+  double rebound = 0.0;   ///< needed from equilibrium to separation: 11.69 units [J]
 
-  /// What is lost in one cycle: 7.09 units [J].
+  /// Lost in one cycle: 7.09 units [J].
   double lost() const { return rebound - incident; }
 };
 
 JkrEnergies jkr_energies(const CaptureContact& contact);
 
-/// The velocity below which the sphere cannot pay that loss, sqrt(2 lost / m) [m/s]. It falls as
-/// d^(-5/6). Above it e = sqrt(1 - (V_s / V)^2).
+/// The velocity at which the kinetic energy equals that loss, sqrt(2 lost / m) [m/s], proportional
+/// to d^(-5/6). Above it e = sqrt(1 - (V_s / V)^2).
 double jkr_capture_velocity(const CaptureContact& contact);
 
-/// The sticking velocity of Thornton & Ning (1998), Powder Technology 99, 154-162, with yield
-/// [m/s]: adhesion at work throughout (their sections 4 and 5): the pressure of the JKR contact,
-/// p(r) = (2 E* a / (pi R)) s - (2 w E* / (pi a))^(1/2) / s with s = (1 - r^2 / a^2)^(1/2), is cut
-/// off at p_Y on loading; unloading follows JKR with the flattened radius R_p = 4 E* a*^3 / (3 (F*
-/// + (8 pi w E* a*^3)^(1/2))). A sphere sticks below the velocity whose work of loading leaves a
-/// contact that gives back just what its parting takes. Where adhesion alone makes the contact
-/// yield it does so at touch. p_Y does not harden.
-/// @return the JKR velocity where the sphere does not yield; 0 without adhesion; NaN where it would
-/// have to be flattened altogether
+/// The sticking velocity of Thornton & Ning (1998), Powder Technology 99, 154-162, with yield [m/s]
+/// and adhesion throughout (their sections 4 and 5): the pressure of the JKR contact, p(r) = (2 E*
+/// a / (pi R)) s - (2 w E* / (pi a))^(1/2) / s with s = (1 - r^2 / a^2)^(1/2), is limited to p_Y on
+/// loading; unloading follows JKR with the flattened radius R_p = 4 E* a*^3 / (3 (F* + (8 pi w E*
+/// a*^3)^(1/2))). At the sticking velocity the loading produces a contact that recovers exactly the
+/// work of its separation. If adhesion alone makes the contact yield, it does so at touch. p_Y is
+/// constant, without hardening.
+/// @return the JKR velocity if the sphere does not yield; 0 without adhesion; NaN if it is captured
+///   until it is completely flattened
 double thornton_ning_plastic_velocity(const CaptureContact& contact, double yield_pressure);
 
 /// The capture velocity of Wall, John, Wang & Goren (1990), Aerosol Sci. Technol. 12, 926-946, as
 /// eq. 4 of Li, Dunn & Brach (1999):
 ///   V* = (-2 dE / (m e^2))^(1/2),   dE = E_r - E_i,   e = (1 - K_1 / K_i)^(1/2)  (eq. 3),
-/// K_1 being the kinetic energy that the impact itself loses out of K_i. For the root to be real dE
-/// is negative: here the energies are those of the bound states, which lie below zero, so that a
-/// bond that is stronger on parting has dE < 0. (Eq. 1 counts the same energies as positive.)
+/// with K_1 the kinetic energy out of K_i that the impact itself loses. The root is real for dE <
+/// 0: here the energies are those of the bound states, which are negative, so that a bond that is
+/// stronger on separation has dE < 0. (Eq. 1 takes the same energies as positive.)
 ///
 /// @param mass m [kg], > 0
 /// @param restitution e [1], 0 < e <= 1
 /// @param energy_difference dE [J]
-/// @return V* [m/s]; 0 where dE >= 0, because then nothing is captured
+/// @return V* [m/s]; 0 if dE >= 0, as no sphere is then captured
 double wall_capture_velocity(double mass, double restitution, double energy_difference);
 
 }  // namespace recoil

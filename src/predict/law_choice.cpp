@@ -10,7 +10,7 @@
 namespace recoil {
 namespace {
 
-/// Root mean square over the datasets that have other diameters than the reference.
+/// Root mean square of the held-out errors over the datasets with more than one diameter.
 std::optional<double> held_out(const FitResult& fitted) {
   double sum = 0.0;
   int count = 0;
@@ -31,7 +31,8 @@ std::vector<LawCapture> captures_of(const FitResult& fitted, const std::vector<D
       const CaptureVelocity found = capture_velocity(fitted.model, fitted.theta, d, diameter);
       if (!found.found || !(found.value > 0.0)) continue;
       capture.value = found.value;
-      if (fitted.covariance.size() != p * p) continue;  // the points do not determine all of them
+      if (fitted.covariance.size() != p * p)
+        continue;  // the points do not determine all parameters
       double variance = 0.0;
       for (std::size_t a = 0; a < p; ++a) {
         for (std::size_t b = 0; b < p; ++b) {

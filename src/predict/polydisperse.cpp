@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t conventions = all_conventions.size();
 
-/// Everything about one velocity under one set of parameters; not a number: no value.
+/// The averages at one velocity under one set of parameters; NaN: no value.
 struct Mixture {
   std::array<double, conventions> average{};
   double captured = 0.0;
   double unseen = 0.0;
 };
 
-/// Spheres of all sizes at all velocities, flown together under many sets of parameters.
+/// Simulates spheres of all sizes at all velocities in one batch, for many sets of parameters.
 class MixtureFlight {
  public:
   MixtureFlight(const ImpactModel& model, std::size_t dataset, const std::vector<SizeBin>& bins,
@@ -65,7 +65,7 @@ class MixtureFlight {
     for (std::size_t i = 0; i < bins_.size(); ++i) {
       const ImpactResult& impact = predictor_.at(k * bins_.size() + i);
       const double w = bins_[i].weight;
-      if (!impact.usable()) {  // one size without an answer leaves the mixture without one
+      if (!impact.usable()) {  // without a solution for one size, the mixture has no value
         const double none = std::nan("");
         return {{none, none, none}, none, none};
       }

@@ -13,12 +13,12 @@
 
 namespace recoil {
 
-/// What a weighted average does with spheres that do not come back. Li, Dunn & Brach (1999) do not
-/// say which of these theirs is.
+/// The treatment of captured spheres in a weighted average. Li, Dunn & Brach (1999) do not state
+/// theirs.
 enum class CaptureConvention {
-  captured_as_zero,   ///< a captured sphere counts with e = 0
-  captured_left_out,  ///< the mean is that of the spheres that rebound
-  unseen_left_out,    ///< and of those only that climb back to the measuring plane
+  captured_as_zero,   ///< a captured sphere has e = 0
+  captured_left_out,  ///< the mean is over the spheres that rebound
+  unseen_left_out,    ///< the mean is over the spheres that rebound to the measuring plane
 };
 /// Their names in CSV and JSON.
 template <>
@@ -30,16 +30,16 @@ inline constexpr std::array all_conventions = values_of<CaptureConvention>();
 
 /// A predicted quantity at one velocity, with its pointwise band.
 struct BandedValue {
-  std::optional<double> value;         ///< nothing where no sphere is left to average
-  std::optional<double> lower, upper;  ///< nothing without a bootstrap, or where fewer than nine in
-                                       ///< ten replicates have a value
+  std::optional<double> value;  ///< nullopt if no sphere contributes to the average
+  /// Nullopt without a bootstrap, or if fewer than 90 % of the replicates have a value.
+  std::optional<double> lower, upper;
 };
 
 /// The value of the fit with the percentiles of the replicates; NaN: no value.
 BandedValue banded(double value, std::vector<double> replicates, double level);
 
-/// e of spheres of one size at every velocity, without errors of the measurement [1]; NaN where the
-/// model has no answer.
+/// e of spheres of one size at every velocity, without errors of the measurement [1]; NaN if an
+/// impact cannot be solved.
 std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
                                       std::size_t dataset, double diameter,
                                       const std::vector<double>& velocities);
@@ -47,7 +47,7 @@ std::vector<double> true_restitutions(const ImpactModel& model, std::span<const 
 /// `count` values from `first` to `last`, evenly spaced in their logarithm.
 std::vector<double> log_spaced(double first, double last, int count);
 
-/// A size of a mixture that has a curve of its own; d10 is the mean.
+/// A size of a mixture with its own curve; d10 is the mean diameter.
 enum class NamedSize { smallest, d10, largest };
 template <>
 struct NamesOf<NamedSize> {
@@ -58,14 +58,15 @@ struct NamesOf<NamedSize> {
 struct SizeCurve {
   NamedSize size = NamedSize::d10;
   double diameter = 0.0;            ///< [m]
-  double capture_velocity = 0.0;    ///< [m/s]; 0 where none was found
+  double capture_velocity = 0.0;    ///< [m/s]; 0 if none was found
   std::vector<double> restitution;  ///< [1], at the velocities of the prediction
 };
 
-/// How far the points of the dataset lie from one curve.
+/// The deviation of the points of the dataset from one curve.
 struct CurveMiss {
-  std::optional<double> rmse;  ///< of e over the points with a prediction [1]
-  std::size_t points = 0;      ///< how many these are
+  /// Root mean square of e - e_predicted over the points with a prediction [1].
+  std::optional<double> rmse;
+  std::size_t points = 0;  ///< number of these points
   RECOIL_FIELDS(rmse, points)
 };
 
@@ -73,28 +74,29 @@ struct CurveMiss {
 struct PolydispersePrediction {
   std::size_t dataset = 0;
   MeasuredSizes sizes;
-  double probe_height = 0.0;                        ///< h of the measuring plane [m]
-  double slowest_seen = 0.0;                        ///< sqrt(2 g h) [m/s]
-  double level = 0.95;                              ///< of the bands
-  std::size_t simulated = 0;                        ///< how many sizes were simulated
-  std::size_t replicates = 0;                       ///< of the bootstrap behind the bands; 0: none
-  std::vector<double> velocity;                     ///< V [m/s], ascending
-  std::array<std::vector<BandedValue>, 3> average;  ///< by convention: mean e [1]
-  std::vector<BandedValue> captured;                ///< part of the spheres that stay [1]
-  std::vector<BandedValue> unseen;  ///< part that stays or returns too slowly to be seen [1]
+  double probe_height = 0.0;     ///< h of the measuring plane [m]
+  double slowest_seen = 0.0;     ///< sqrt(2 g h) [m/s]
+  double level = 0.95;           ///< level of the bands
+  std::size_t simulated = 0;     ///< number of simulated sizes
+  std::size_t replicates = 0;    ///< number of bootstrap replicates for the bands; 0: none
+  std::vector<double> velocity;  ///< V [m/s], ascending
+  std::array<std::vector<BandedValue>, 3> average;  ///< mean e by convention [1]
+  std::vector<BandedValue> captured;                ///< captured fraction of the spheres [1]
+  /// Fraction that is captured or too slow to reach the measuring plane [1].
+  std::vector<BandedValue> unseen;
   std::vector<SizeCurve> size_curves;
-  std::array<CurveMiss, 3> miss;  ///< of the three averages at the points of the dataset
-  CurveMiss miss_single;          ///< of d10 alone, on the same footing
+  std::array<CurveMiss, 3> miss;  ///< deviation of the three averages at the points of the dataset
+  CurveMiss miss_single;          ///< the same for spheres of diameter d10
 };
 
 struct PolydisperseOptions {
   double probe_height = 1e-3;  ///< [m]: about 1 mm in Li, Dunn & Brach (1999), section 2
   double level = 0.95;
-  int threads = 0;       ///< 0: all cores. No digit depends on it.
-  int velocities = 60;   ///< log-spaced
-  int replicates = 499;  ///< at most
-  /// Into how many sizes a bin of stated width is divided; 1 takes its mid-point for all, as Li,
-  /// Dunn & Brach (1999) did, which makes steps of the captures.
+  int threads = 0;       ///< 0: all cores. Results do not depend on it.
+  int velocities = 60;   ///< number of velocities, log-spaced
+  int replicates = 499;  ///< largest number of replicates
+  /// Number of sizes into which a bin of stated width is divided; 1 uses its mid-point, as Li, Dunn
+  /// & Brach (1999) did, which makes the captured fraction a step function.
   int parts = 5;
 };
 
@@ -104,11 +106,11 @@ struct PolydisperseOptions {
 ///   captured_left_out  the same over the bins with e_i > 0,
 ///   unseen_left_out    the same over the bins with e_i V > sqrt(2 g h),
 /// each at every velocity and for every bootstrap replicate (the band: its percentiles). f0 of
-/// every size follows from eq. 12. Mechanisms of the measurement are left out, for they would count
+/// every size follows from eq. 12. Mechanisms of the measurement do not act, as they would include
 /// sizes and slow rebounds twice.
 ///
-/// The parameters are those of the fit as it stands, in which every point has the diameter that the
-/// dataset gives it.
+/// The parameters are those of the fit, in which every point has the diameter stated in the
+/// dataset.
 PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
                                        const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options = {});

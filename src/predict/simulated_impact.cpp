@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-/// The energy that an impact loses without any damping: the work between the jumps.
+/// The energy that an impact loses without any damping, by its jumps [m V^2].
 double lost_by_jumps(ImpactGroups groups, ImpactOptions options) {
   if (!traits(options.adhesion).jumps) return 0.0;
   groups.alpha = groups.gamma = groups.kappa = 0.0;

@@ -10,42 +10,42 @@
 
 namespace recoil {
 
-/// What a velocity [m/s] and a diameter [um] of one impact may be, on the command line and in
-/// Python.
+/// The allowed range of a velocity [m/s] and of a diameter [um], on the command line and in Python.
 inline constexpr std::pair<double, double> velocity_limits = {1e-7, 1e4};
 inline constexpr std::pair<double, double> diameter_limits_um = {1e-3, 1e6};
 
-/// One impact of a model: e as measured, mechanisms included, and the impact of the base model at
-/// the contact, where the mechanisms leave the sphere.
+/// One impact of a model: the measured e, including mechanisms, and the impact of the base model at
+/// the contact, with the conditions that the mechanisms produce.
 struct SimulatedImpact {
   PointConditions asked;             ///< dataset, diameter [m], incident velocity [m/s]
   double restitution_squared = 0.0;  ///< as measured; below zero for a capture, see ImpactResult
-  bool extended = false;             ///< mechanisms act
+  bool extended = false;             ///< true: mechanisms act
   ImpactConditions conditions;       ///< at the contact
-  double diameter = 0.0;             ///< of the sphere, at the contact [m]
-  double density = 0.0;              ///< of the sphere [kg/m3]
+  double diameter = 0.0;             ///< diameter of the sphere at the contact [m]
+  double density = 0.0;              ///< density of the sphere [kg/m3]
   ImpactGroups groups;
   ImpactScales scales;
-  ImpactResult impact;  ///< of the base model, with budget and gradient
-  double jumps = 0.0;   ///< what the contact loses in jumping in and out, without damping [m V^2]
-  WholeImpactEnergy whole;  ///< with mechanisms
+  ImpactResult impact;  ///< impact of the base model, with budget and gradient
+  /// Energy that the jumps into and out of contact lose without damping [m V^2].
+  double jumps = 0.0;
+  WholeImpactEnergy whole;  ///< energy budget with mechanisms
   std::vector<ImpactMoment> history;
   std::vector<Validity> validity;
 
-  /// The contact yields. Only its elastic rebound is simulated: `impact` has neither the largest
-  /// penetration and push nor the contact time of the whole impact, and `history` is empty.
+  /// True if the contact yields. Only its elastic rebound is simulated: `impact` lacks the largest
+  /// penetration and force and the contact time of the whole impact, and `history` is empty.
   bool yields = false;
 
   bool captured() const { return !(restitution_squared > 0.0); }
 };
 
 /// Simulates one impact with the model's initial values.
-/// @throws ComputationError when it has no answer
+/// @throws ComputationError if it cannot be solved
 SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>& datasets,
                             const PointConditions& at);
 
-/// The forces against time: columns with units in their names, times [ns], lengths [nm], velocities
-/// [m/s], forces [uN], positive ones push the sphere away from the surface.
+/// A column of the history of an impact, with the unit in its name: times [ns], lengths [nm],
+/// velocities [m/s], forces [uN]. Positive forces push the sphere away from the surface.
 struct HistoryColumn {
   std::string name;
   std::vector<double> values;

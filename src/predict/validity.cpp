@@ -16,11 +16,11 @@ using std::numbers::pi;
 
 constexpr double largest_contact = 0.3;   // a / R
 constexpr double largest_pressure = 0.3;  // p_0 / E*
-constexpr double yield_share = 0.03;      // yield pressure over E of the softer body
+constexpr double yield_share = 0.03;      // yield pressure over E if the strength is not stated
 constexpr double least_tabor = 5.0;
 constexpr double least_transits = 5.0;
 
-/// Does a mechanism of the fit have a pressure at which the contact gives way?
+/// Does a mechanism of the fit have a pressure at which the contact yields?
 bool yields(const ImpactModel& model) {
   return std::any_of(model.slots.begin(), model.slots.end(), [](const ParameterSlot& slot) {
     return slot.mechanism() != nullptr && slot.parameter->unit == "Pa" &&
@@ -28,8 +28,8 @@ bool yields(const ImpactModel& model) {
   });
 }
 
-/// The largest contact radius over R of an elastic sphere without damping [1]: where
-/// (2/5) K sqrt(r) n^(5/2) - (4/3) pi sqrt(r) f0 n^(3/2) = m V^2 / 2, by Newton from above.
+/// The largest contact radius over R of an elastic sphere without damping [1]: from (2/5) K sqrt(r)
+/// n^(5/2) - (4/3) pi sqrt(r) f0 n^(3/2) = m V^2 / 2, by Newton's method from above.
 double undamped_contact(const ContactProperties& contact, double diameter, double velocity,
                         double f0) {
   const double r = contact.relative_radius(diameter);
@@ -48,13 +48,13 @@ double undamped_contact(const ContactProperties& contact, double diameter, doubl
 
 struct LargestContact {
   double radius = 0.0;    ///< [m]
-  double pressure = 0.0;  ///< in its middle [Pa]
+  double pressure = 0.0;  ///< at its centre [Pa]
 };
 
-/// At the deepest penetration n [m] of an impact. Where the contact yields, at the end of the
-/// loading, at the pressure at which it flows. Else by the law: a^2 = R n; under jkr a^2 / R = n +
-/// (8 pi W a / 3K)^(1/2), where adhesion lowers the pressure 2 E* a / (pi R) by (2 W E* / (pi
-/// a))^(1/2) (Johnson 1985, section 5.5); under maugis a of the undamped impact.
+/// The contact at the deepest penetration n [m] of an impact. If the contact yields: at the end of
+/// the loading, with the pressure at which it flows. Else by the adhesion law: a^2 = R n; under jkr
+/// a^2 / R = n + (8 pi W a / 3K)^(1/2), where adhesion lowers the pressure 2 E* a / (pi R) by (2 W
+/// E* / (pi a))^(1/2) (Johnson 1985, section 5.5); under maugis a of the undamped impact.
 LargestContact largest_contact_of(AdhesionLaw law, const ContactView& view, double n, double work) {
   const Encounter<double>& e = view.encounter;
   if (e.flow_pressure > 0.0) return {e.flow_radius, e.flow_pressure};
@@ -70,8 +70,8 @@ LargestContact largest_contact_of(AdhesionLaw law, const ContactView& view, doub
   return {a, 2.0 * e.reduced_modulus() * a / (pi * radius) - lowered};
 }
 
-/// The points of one dataset at which a quantity can be worst: the largest contact, the fastest
-/// and the smallest sphere.
+/// The points of one dataset at which a quantity can be most extreme: the largest contact, the
+/// fastest and the smallest sphere.
 std::vector<PointConditions> extreme_points(const FitResult& fitted, std::size_t dataset) {
   const ImpactModel& model = fitted.model;
   const ContactProperties& contact = model.contacts[dataset];
@@ -109,7 +109,7 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   const double radius = view.encounter.radius();
   const double modulus = 0.75 * contact.stiffness;  // E*
   const double f0 = view.encounter.adhesion_force;
-  // f0 is that of the curvature that unloads the contact.
+  // f0 belongs to the curvature of the contact on unloading.
   const double work = adhesion_energy_for(f0, view.encounter.contact_radius, contact.stiffness);
   const LargestContact largest =
       largest_contact_of(model.adhesion, view, impact.penetration_max * view.scales.length, work);
@@ -122,7 +122,7 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   };
   add(ValidityQuantity::contact_radius, contact_radius, largest_contact);
   add(ValidityQuantity::pressure_modulus, pressure / modulus, largest_pressure);
-  // Beside an elastomer the pressure stays far below what makes another body flow.
+  // Against an elastomer the pressure remains far below the yield pressure of another body.
   const bool elastomer = system.particle.is_elastomer() || system.surface.is_elastomer();
   if (!yields(model) && !elastomer) {
     const auto yield_of = [](const Material& body) {

@@ -48,8 +48,9 @@ namespace py = pybind11;
 namespace recoil {
 namespace {
 
-/// Work in C++ that runs without the interpreter's lock. Its thread takes the lock again at the
-/// end, which it cannot once the interpreter is being taken down: the exit waits for all work.
+/// Marks work in C++ that runs without the interpreter's lock. Its thread must reacquire the lock
+/// at the end, which is impossible while the interpreter shuts down, so the exit waits for all
+/// work.
 class Busy {
  public:
   Busy() {
@@ -64,7 +65,7 @@ class Busy {
   Busy(const Busy&) = delete;
   Busy& operator=(const Busy&) = delete;
 
-  /// Calls off all work of other threads, and waits for its end.
+  /// Cancels the work of all other threads and waits for its end.
   static void at_exit() {
     exiting() = true;
     const py::gil_scoped_release release;
@@ -92,14 +93,15 @@ class Busy {
   }
 };
 
-/// During the lifetime of one of these other threads of Python run.
+/// Releases the interpreter's lock during its lifetime, so that other Python threads run.
 struct Released {
   Busy busy;
   py::gil_scoped_release release;
 };
 
-/// The result of `work`, during which other threads of Python run. Ctrl-C ends it, and all other
-/// work of the process, as KeyboardInterrupt. @pre the caller holds the interpreter's lock
+/// Runs `work` while other Python threads run, and returns its result. Ctrl-C cancels it, and all
+/// other work of the process, with KeyboardInterrupt.
+/// @pre the caller holds the interpreter's lock
 template <class Work>
 auto interruptible(const Work& work) {
   constexpr auto poll_interval = std::chrono::milliseconds(50);
@@ -130,10 +132,11 @@ FitInputs inputs_from_text(const std::string& text, const std::string& file,
 
 // ---- models ------------------------------------------------------------------------------------
 
-/// Many impacts of one model, as columns.
+/// Many impacts of one model, in columns.
 struct ManyImpacts {
-  std::vector<double> restitution_squared;  ///< [impacts], see ImpactResult; NaN without an answer
-  std::vector<std::uint8_t> captured;       ///< [impacts] 1: the sphere stays
+  /// [impacts], see ImpactResult; NaN if an impact cannot be solved.
+  std::vector<double> restitution_squared;
+  std::vector<std::uint8_t> captured;  ///< [impacts] 1: the sphere is captured
   /// [column][impacts]: d e^2 / d (each slot of the model, the velocity [s/m], the diameter [1/m]).
   std::vector<std::vector<double>> slopes;
 };
@@ -150,9 +153,9 @@ void require_within(const std::vector<double>& values, double unit, const char* 
   }
 }
 
-/// Simulates impacts at `velocity` [m/s] and `diameter` [m], all at once, under the model's initial
+/// Simulates impacts at `velocity` [m/s] and `diameter` [m] in one batch, with the model's initial
 /// values. @pre as many diameters as velocities
-/// @throws InputError where one of them is not a number or out of `velocity_limits`,
+/// @throws InputError if one of them is not a number or outside `velocity_limits` or
 ///   `diameter_limits_um`
 ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
                           const std::vector<double>& velocity, const std::vector<double>& diameter,
@@ -170,7 +173,7 @@ ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
                       std::vector<double>(count, std::numeric_limits<double>::quiet_NaN()));
   }
   std::vector<double> row(slots);
-  // Part by part, as a large array can be called off between two of them.
+  // In parts, so that a large array can be cancelled between two of them.
   constexpr std::size_t part = 20000;
   for (std::size_t begin = 0; begin < count; begin += part) {
     const std::size_t end = std::min(count, begin + part);
@@ -193,7 +196,7 @@ ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
   return out;
 }
 
-/// A model with values, as it is simulated.
+/// A model with values, ready to be simulated.
 struct Valued {
   ImpactModel model;
   std::vector<Dataset> datasets;
@@ -254,7 +257,7 @@ std::string one_impact(const Valued& valued, double velocity, double diameter_um
                        const std::string& dataset) {
   const std::size_t d = choose_dataset(valued.datasets, dataset);
   const double diameter = diameter_um * units::um;
-  simulate_many(valued.model, d, {velocity}, {diameter}, false);  // looks at their limits
+  simulate_many(valued.model, d, {velocity}, {diameter}, false);  // checks the limits
   return simulation_json(valued.model, valued.datasets,
                          simulate_at(valued.model, valued.datasets, {d, diameter, velocity}),
                          valued.fit, valued.values);
@@ -271,7 +274,7 @@ std::string summary_html(const Analysis& analysis) {
   return html_of(blocks);
 }
 
-/// The profile likelihood of every free parameter by its label: values, rises, allowed rises.
+/// The profile likelihood of every free parameter by its label: values, rises and allowed rises.
 py::dict profiles_of(const Analysis& analysis) {
   py::dict profiles;
   const std::vector<IntervalSet>& sets = analysis.uncertainty.intervals;
@@ -296,7 +299,7 @@ py::tuple posterior_of(const Analysis& analysis) {
                         found ? found->pointwise : std::vector<std::vector<double>>());
 }
 
-/// The pictures of a result by name.
+/// The pictures of a result, by name.
 struct Pictures {
   std::vector<Figure> figures;
 
@@ -365,12 +368,12 @@ std::pair<std::string, std::string> compared(
 
 // ---- passages ----------------------------------------------------------------------------------
 
-/// The texts that the command prints and writes.
+/// The texts that `recoil pair` prints and writes.
 struct PairTexts {
   std::string json, text, points, impacts;
 };
 
-/// @param json a PairArguments
+/// @param json a PairArguments object
 PairTexts pair_texts(const std::string& file, const std::string& json) {
   const auto arguments = value_from<PairArguments>(Json::parse(json));
   const PairRequest request = arguments.request(file);
@@ -384,7 +387,7 @@ PairTexts pair_texts(const std::string& file, const std::string& json) {
 
 // ---- errors ------------------------------------------------------------------------------------
 
-/// Raises an exception that is a class of the package.
+/// Raises an exception of a class of the package.
 void raise_as(const char* name, const py::tuple& arguments) {
   const py::object type = py::module_::import("recoil._errors").attr(name);
   PyErr_SetObject(type.ptr(), type(*arguments).ptr());
@@ -399,9 +402,10 @@ void translate(std::exception_ptr thrown) {
                                           error.suggestion()));
   } catch (const ComputationError& error) {
     raise_as("ComputationError", py::make_tuple(error.what()));
-  } catch (const CalledOff&) {  // by a Ctrl-C in another thread, or by the end of the program
+  } catch (
+      const CalledOff&) {  // cancelled by Ctrl-C in another thread, or by the end of the program
     PyErr_SetNone(Busy::exiting() ? PyExc_SystemExit : PyExc_KeyboardInterrupt);
-  } catch (const std::filesystem::filesystem_error& error) {  // a path that cannot be used
+  } catch (const std::filesystem::filesystem_error& error) {  // an unusable path
     const std::string problem = error.code().message();
     raise_as("InputError", py::make_tuple(error.path1().string() + ": " + problem,
                                           error.path1().string(), 0, 0, problem));

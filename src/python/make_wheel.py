@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""make_wheel.py PACKAGE OUT: packs the built package (build/release/python/recoil) as a wheel into
-OUT and prints its path. A wheel is a zip file with the package and a list of its files (PEP 427);
-this one is for the Python that runs this and for machines with the same libraries."""
+"""make_wheel.py PACKAGE OUT: packs the built package (build/release/python/recoil) as a wheel in
+OUT and prints its path. A wheel is a zip file of the package and a list of its files (PEP 427).
+This one works with the running Python version and on machines with the same libraries."""
 
 import base64
 import hashlib
@@ -12,7 +12,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-MANY_YEARS_AGO = (1980, 1, 1, 0, 0, 0)  # so that the same package gives the same bytes
+MANY_YEARS_AGO = (1980, 1, 1, 0, 0, 0)  # fixed, so that the same package gives the same bytes
 
 
 def version() -> str:

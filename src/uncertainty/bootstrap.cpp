@@ -23,7 +23,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_suspects = 3;
-constexpr int most_compared = 999;      // replicates that say what is usual
+constexpr int most_compared = 999;      // successful replicates in the comparison
 constexpr double clearly_unlike = 3.0;  // standard errors of a mean
 
 /// Sums of a point's disturbance over some replicates.
@@ -77,7 +77,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   for (std::size_t k = 0; k < std::min(ranked.size(), most_suspects); ++k) {
     result.suspects.push_back(ranked[k].second);
   }
-  // The first failure once more, for what the minimiser has to say.
+  // Repeats the first failed refit for the message of the minimiser.
   Observations sample = plan.fitted->data;
   resample(plan, seed, result.index.front(), sample);
   const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
@@ -88,24 +88,23 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
 
 namespace {
 
-// Tolerance of the impacts in refits over that of the fit. It moves the estimates of a replicate by
-// about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
-// saves a third of the time.
+// Tolerance of the impact solver in refits, relative to that of the fit. It changes the estimates
+// of a replicate by a relative 1e-8 (measured on 60 points, f0 free), while they scatter by
+// percents, and saves a third of the time.
 constexpr double refit_tolerance_factor = 100.0;
-// `replicates = "auto"` begins with the first number and ends with the last.
+// First and largest number of replicates of `replicates = "auto"`.
 constexpr int fewest_automatic = 999;
 constexpr int most_automatic = 19999;
 
-/// How many replicates a run begins with: no fewer than have an interval at its level.
+/// The first number of replicates: at least as many as an interval at this level needs.
 int first_count(const UncertaintyOptions& options) {
   const int asked = options.replicates_auto ? fewest_automatic : options.replicates;
   const double needed = static_cast<double>(fewest_replicates(options.level));
   return asked == 0 ? 0 : std::max(asked, static_cast<int>(std::min(needed, 1.0 * most_automatic)));
 }
 
-/// What one thread needs to refit samples one after the other without building anything anew: the
-/// problem refers to the sample beside it, and outlives its data as long as the points stay where
-/// they are and only their restitution changes.
+/// The memory in which one thread refits samples. The problem refers to `sample_` and is reused as
+/// long as only the restitution of the points changes.
 class Workspace {
  public:
   explicit Workspace(const ResamplingPlan& plan) : plan_(plan), model_(plan.fitted->model) {
@@ -115,7 +114,7 @@ class Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
-  /// The refit of replicate `index`, with the weights that belong to it where they depend on it.
+  /// The refit of replicate `index`, with its own weights if weights depend on the fit.
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
     if (sample_.weights_depend_on_fit()) {
@@ -129,7 +128,7 @@ class Workspace {
     return minimise(*problem_, plan_.fitted->theta, minimiser_);
   }
 
-  /// What the last refit worked on.
+  /// The data of the last refit, with their weights.
   const Observations& data() const { return sample_.weights_depend_on_fit() ? weighted_ : sample_; }
 
  private:
@@ -141,7 +140,7 @@ class Workspace {
   std::optional<LeastSquaresProblem> problem_;
 };
 
-/// What all replicates need, besides the fit.
+/// Data that all replicates share, besides the fit.
 struct Run {
   explicit Run(const ResamplingPlan& plan)
       : workspaces([&plan] { return std::make_unique<Workspace>(plan); }) {}
@@ -150,7 +149,8 @@ struct Run {
   std::vector<CaptureQuery> queries;  ///< the capture velocities of the fit
 };
 
-/// The larger Monte-Carlo error of an interval's ends over its width; 0 where nothing is random.
+/// The larger Monte-Carlo error of the two ends over the width of the interval; 0 if nothing is
+/// random.
 double relative_error(const Interval& interval) {
   if (!interval.available()) return 0.0;
   const double width = *interval.upper - *interval.lower;
@@ -159,8 +159,9 @@ double relative_error(const Interval& interval) {
   return width > 0.0 ? error / width : 0.0;
 }
 
-/// The largest Monte-Carlo error of a percentile interval's ends, or of a capture velocity's quoted
-/// ones, over the width of its interval; 0 where nothing is random.
+/// The largest Monte-Carlo error of an end over the width of its interval, among the percentile
+/// intervals of the parameters and the quoted intervals of the capture velocities; 0 if nothing is
+/// random.
 double monte_carlo_error(const FitResult& fitted, const BootstrapResult& replicates,
                          std::vector<CaptureEstimate> captures, double level) {
   double worst = 0.0;
@@ -177,8 +178,8 @@ double monte_carlo_error(const FitResult& fitted, const BootstrapResult& replica
   return worst;
 }
 
-/// How many replicates bring a relative error down to what is wanted, the error falling like
-/// 1 / sqrt(B); one less than a multiple of 1000, so that the quantiles fall on replicates.
+/// The number of replicates B at which the relative error, proportional to 1 / sqrt(B), reaches
+/// `wanted`; one less than a multiple of 1000, so that the quantiles are replicates.
 int more_replicates(int so_far, double error, double wanted) {
   const double needed = so_far * std::pow(error / wanted, 2);
   const double rounded = 1000.0 * std::ceil((needed + 1.0) / 1000.0) - 1.0;
@@ -287,7 +288,7 @@ std::string digits_of(const FitResult& fitted) {
 BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                           const UncertaintyOptions& options) {
   Bootstrap run(fitted, capture, options);
-  const bool known = fitted.data.noise.known;  // else there is nothing to draw
+  const bool known = fitted.data.noise.known;  // without noise nothing can be drawn
   for (int count = known ? first_count(options) : 0;;) {
     run.extend(count);
     BootstrapResult result = run.result();

@@ -17,12 +17,12 @@ namespace {
 
 // The certified error of e^2, see simulate_impacts_fast.
 constexpr double solver_error = 1e-9;
-// Below this share of the variance nobody asks whether a constant acts linearly.
+// Below this share of the variance, a constant's effect is not checked for linearity.
 constexpr double worth_a_refit = 0.02;
-// How far a move may be from the sd that the linear law gives.
+// Relative deviation of a shift from the linear sd up to which an effect counts as linear.
 constexpr double linear_within = 0.25;
 
-/// A quantity of a fit: its value and gradient under any theta; nothing where it has none.
+/// A quantity of a fit: its value and gradient at any theta; nullopt if it has no value.
 struct Quantity {
   struct At {
     double value = 0.0;
@@ -31,7 +31,7 @@ struct Quantity {
   std::function<std::optional<At>(std::span<const double> theta)> at;
 };
 
-/// What all budgets of a fit share.
+/// Data that all budgets of a fit share.
 class BudgetMaker {
  public:
   explicit BudgetMaker(const FitResult& fitted) : fitted_(fitted) {
@@ -104,8 +104,8 @@ class BudgetMaker {
     for (BudgetEntry& entry : budget.entries) {
       if (entry.source != BudgetSource::constant) continue;
       if (!budget.sd_without_first_constant) {
-        // The variance given a constant: less the square of the covariance over its variance;
-        // where the fit does not move the constant, less the constant's own part.
+        // The variance at a known constant: minus the squared covariance over the constant's
+        // variance; if the fit does not move the constant, minus the constant's own part.
         const std::size_t j = fitted_.model.first_constant() + entry.constant;
         const double given = variance - (fitted_.model.adjusts_constants()
                                              ? reach[j] * reach[j] / covariance_[j * p + j]
@@ -124,7 +124,7 @@ class BudgetMaker {
     budget.entries.push_back({source, constant, std::sqrt(square), 0.0, {}, {}});
   }
 
-  /// The quantity when the constant is stated one standard deviation off.
+  /// Sets the shift of the quantity when the constant is one standard deviation lower or higher.
   void move(const Quantity& quantity, BudgetEntry& entry, ErrorBudget& budget) const {
     for (const double by : {-1.0, 1.0}) {
       const auto theta = estimate_with_constant_moved(fitted_, entry.constant, by);
@@ -142,7 +142,8 @@ class BudgetMaker {
     }
   }
 
-  /// What the errors of V and d are of the variance of each point, see `reweighted_fit`.
+  /// Computes the shares of the errors of V and d in the variance of each point, see
+  /// `reweighted_fit`.
   void find_input_shares() {
     const std::vector<Observation>& points = fitted_.data.points;
     PointPredictor predictor(fitted_.model, fitted_.data.conditions());
@@ -181,7 +182,7 @@ Quantity slot_quantity(std::size_t slot) {
   }};
 }
 
-/// f0 or W of a dataset whose adhesion follows its materials.
+/// f0 or W of a dataset whose adhesion changes with its material constants.
 Quantity adhesion_quantity(const ImpactModel& model, std::size_t dataset) {
   return {[&model, dataset](std::span<const double> theta) -> std::optional<Quantity::At> {
     Quantity::At at{adhesion_value_under(model, theta, dataset),

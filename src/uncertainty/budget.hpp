@@ -12,13 +12,13 @@
 
 namespace recoil {
 
-/// From what an error comes.
+/// Source of an error.
 enum class BudgetSource {
-  scatter,   ///< of the points, the errors of V and d apart
+  scatter,   ///< scatter of the points, without the errors of V and d
   velocity,  ///< stated errors of V, independent from point to point
   diameter,  ///< stated errors of d, independent from point to point
-  spread,    ///< that the scatter from impact to impact is estimated
-  constant,  ///< a constant of the materials
+  spread,    ///< uncertainty of the estimated scatter from impact to impact
+  constant,  ///< a material constant
   numerics,  ///< the solver's tolerance
 };
 template <>
@@ -30,36 +30,36 @@ struct NamesOf<BudgetSource> {
 /// One row of a budget.
 struct BudgetEntry {
   BudgetSource source = BudgetSource::scatter;
-  std::size_t constant = 0;  ///< of ImpactModel::constants, where the source is one
-  double sd = 0.0;           ///< what it alone makes of the error, in the quantity's unit
-  double share = 0.0;        ///< of the variance [1]
-  /// By how much the quantity moves when the constant is stated one standard deviation lower and
-  /// higher and everything is fitted again; only where its share is worth it.
+  std::size_t constant = 0;  ///< index into ImpactModel::constants, if the source is a constant
+  double sd = 0.0;           ///< standard deviation from this source alone, in the quantity's unit
+  double share = 0.0;        ///< share of the variance [1]
+  /// The shift of the quantity when the constant is one standard deviation lower and higher and the
+  /// model is refitted; only for a share of at least 2 %.
   std::optional<double> lower, upper;
 };
 
-/// The error of one quantity by its sources, which are independent: the law of propagation of the
-/// GUM (JCGM 100:2008, 5.1). With C the covariance of the fit, J its Jacobian and g the gradient of
-/// the quantity, observation i has the part sd_i = |g'C J_i| / s, and the sum of the squares is
-/// g'C g.
+/// The error budget of one quantity, by independent sources: the law of propagation of the GUM
+/// (JCGM 100:2008, 5.1). With C the covariance of the fit, J its Jacobian and g the gradient of the
+/// quantity, and s the noise scale, observation i contributes sd_i = |g'C J_i| / s, and the squares
+/// add up to g'C g.
 struct ErrorBudget {
   double value = 0.0;
-  double sd = 0.0;                   ///< of all together
-  std::vector<BudgetEntry> entries;  ///< the largest first; without those that are exactly 0
-  /// Do the moves by the constants that count agree with their sd, within a quarter, to both sides?
-  /// If not, the shares say what is large but not how large.
+  double sd = 0.0;                   ///< of all sources together
+  std::vector<BudgetEntry> entries;  ///< the largest first; without sources whose part is 0
+  /// Do the shifts by the constants agree with their sd within 25 % on both sides? If not, the
+  /// shares show which sources are large but not how large they are.
   bool linear = true;
-  /// The error that would be left if the constant with the largest share were known exactly.
+  /// The remaining error if the constant with the largest share were exact.
   std::optional<double> sd_without_first_constant;
 
   bool available() const { return sd > 0.0; }
 };
 
-/// The budgets of all slots: of those that are free, and of an adhesion that follows the materials
-/// (f0 or W at the reference diameter); others are not available.
+/// The budgets of the slots [slots]: available for free slots and for an adhesion that changes with
+/// the materials (f0 or W at the reference diameter).
 std::vector<ErrorBudget> parameter_budgets(const FitResult& fitted);
 
-/// Those of the capture velocities, in their order.
+/// The budgets of the capture velocities, in the order of `capture`.
 std::vector<ErrorBudget> capture_budgets(const FitResult& fitted,
                                          const std::vector<CaptureEstimate>& capture);
 

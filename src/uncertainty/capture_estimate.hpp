@@ -7,26 +7,27 @@
 
 namespace recoil {
 
-/// Ways to an interval of a capture velocity V*.
+/// Kinds of interval of a capture velocity V*.
 enum class CaptureIntervalKind {
-  delta,        ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of Student,
-                ///< averaged over the variance functions, where the noise is estimated
-  percentile,   ///< of the bootstrap
-  studentized,  ///< of ln V*, errors by its gradient in every replicate
+  delta,  ///< V* exp(+- q sd(ln V*)), sd from the covariance and d V* / d theta; if the noise is
+          ///< estimated, q is Student's quantile and the interval is averaged over the variance
+          ///< functions
+  percentile,   ///< bootstrap percentiles
+  studentized,  ///< bootstrap-t of ln V*, with errors from its gradient in every replicate
 };
 template <>
 struct NamesOf<CaptureIntervalKind> {
   static constexpr std::array<std::string_view, 3> names = {"delta", "percentile", "studentized"};
 };
 
-/// By which rule of `recommend_capture` an interval is the one to quote.
+/// The rule of `recommend_capture` that selected the interval to quote.
 enum class CaptureBecause {
-  no_delta,          ///< percentiles, for want of the other
-  at_bound,          ///< percentiles: a parameter rests on its bound
-  bend,              ///< percentiles: they follow the bend of V* in the parameters
-  no_percentiles,    ///< delta, for want of the other
-  spread_estimated,  ///< delta: its error knows that the spread of the impacts is estimated
-  noise_estimated,   ///< delta: it knows how few points estimate the noise
+  no_delta,          ///< percentile, as there is no delta interval
+  at_bound,          ///< percentile: a parameter rests on its bound
+  bend,              ///< percentile: it includes the nonlinearity of V* in the parameters
+  no_percentiles,    ///< delta, as there is no percentile interval
+  spread_estimated,  ///< delta: its error includes that the spread of the impacts is estimated
+  noise_estimated,   ///< delta: it accounts for the few points that estimate the noise
 };
 template <>
 struct NamesOf<CaptureBecause> {
@@ -43,9 +44,9 @@ struct CaptureEstimate {
   std::optional<double> above;  ///< all impacts were captured, up to this velocity [m/s]
   std::optional<double> below;  ///< no impact was captured, from this velocity on [m/s]
   PerValue<CaptureIntervalKind, Interval> of_kind;
-  Interval interval;                                             ///< the one to quote
-  CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< its kind
-  std::optional<CaptureBecause> because;                         ///< none without a velocity
+  Interval interval;                                             ///< the interval to quote
+  CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< kind of `interval`
+  std::optional<CaptureBecause> because;                         ///< nullopt without a velocity
 
   Interval& operator[](CaptureIntervalKind kind) { return of_kind[kind]; }
   const Interval& operator[](CaptureIntervalKind kind) const { return of_kind[kind]; }

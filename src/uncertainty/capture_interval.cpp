@@ -9,7 +9,7 @@
 namespace recoil {
 namespace {
 
-/// ln V* / V*_1 under every variance function of the noise, V*_1 being that of the first.
+/// ln V* / V*_1 under every variance function of the noise, with V*_1 the value under the first.
 std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alternatives,
                                     const CaptureVelocity& capture, std::size_t dataset,
                                     double diameter) {
@@ -152,7 +152,7 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   capture.because = replicates  ? CaptureBecause::no_percentiles
                     : sd_stated ? CaptureBecause::spread_estimated
                                 : CaptureBecause::noise_estimated;
-  // Where there is neither, the reason is that of the percentiles.
+  // If there is neither, state the reason for the missing percentile interval.
   quote(!delta.available() && percentile.missing ? percentile : delta);
 }
 
@@ -185,8 +185,8 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
 
 void limit_by_captures(const Observations& data, std::vector<CaptureEstimate>& captures) {
   for (CaptureEstimate& capture : captures) {
-    std::optional<double> fastest;  // that was captured
-    std::optional<double> slowest;  // that rebounded
+    std::optional<double> fastest;  // captured
+    std::optional<double> slowest;  // rebounded
     for (const Observation& point : data.points) {
       if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
       if (point.captured > 0) {

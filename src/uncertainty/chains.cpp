@@ -23,7 +23,7 @@ ChainDraws halves(const ChainDraws& chains) {
   return split;
 }
 
-/// All draws to `map` of them.
+/// Applies `map` to all draws.
 template <class Map>
 ChainDraws mapped(ChainDraws chains, const Map& map) {
   for (std::vector<double>& chain : chains) {
@@ -93,8 +93,8 @@ double effective_draws(const ChainDraws& chains) {
     }
     return 1.0 - (v.within - covariance / all) / v.marginal;
   };
-  // Sums of two neighbours are positive and fall: the first that is negative ends the sum,
-  // or the end of the chain.
+  // Sums of two neighbouring correlations are positive and decrease: the sum ends at the first
+  // negative one, or at the end of the chain.
   double time = -1.0;
   double last = INFINITY;
   for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
@@ -165,7 +165,7 @@ ChainCheck check_chains(const ChainDraws& chains) {
 LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
   const std::size_t draws = log_likelihood.size();
   const double least = *std::min_element(log_likelihood.begin(), log_likelihood.end());
-  std::vector<double> log_weight;  // the largest is 0
+  std::vector<double> log_weight;  // shifted so that the largest is 0
   for (const double ln : log_likelihood) log_weight.push_back(least - ln);
   std::vector<std::size_t> order(draws);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -183,7 +183,7 @@ LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
   }
   LeftOutPoint point;
   constexpr std::size_t fewest = 5;
-  // Weights that are all alike have no tail.
+  // Equal weights have no tail.
   if (above.empty() || above.back() <= 1e-12) {
     point.pareto_k = -INFINITY;
   } else if (above.size() < fewest) {

@@ -30,7 +30,7 @@ std::vector<double> velocity_grid(double slowest, double fastest, double capture
   return {grid.begin(), grid.end()};
 }
 
-/// e at every velocity; NaN where the model has no answer.
+/// e at every velocity [1]; NaN if the impact cannot be solved.
 std::vector<double> evaluate(const ImpactModel& model, std::span<const double> theta,
                              const RestitutionCurve& curve) {
   std::vector<PointConditions> points;
@@ -57,7 +57,7 @@ void add_band(const ImpactModel& model, const BandSource& band, RestitutionCurve
     for (const std::vector<double>& row : values) {
       if (std::isfinite(row[k])) column.push_back(row[k]);
     }
-    if (column.empty()) {  // no replicate answers here: the band closes on the curve
+    if (column.empty()) {  // no replicate has a value here: the band has no width
       column.push_back(curve.restitution[k]);
     }
     std::sort(column.begin(), column.end());
@@ -66,7 +66,7 @@ void add_band(const ImpactModel& model, const BandSource& band, RestitutionCurve
   }
 }
 
-/// Drops velocities at which the fit itself has no answer.
+/// Removes velocities at which the impact of the fit cannot be solved.
 void drop_unanswered(RestitutionCurve& curve) {
   std::vector<double> v;
   std::vector<double> e;

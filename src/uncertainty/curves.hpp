@@ -9,7 +9,7 @@
 
 namespace recoil {
 
-/// One curve e(V) of a diameter with its pointwise band.
+/// One curve e(V) of a diameter, with a pointwise band.
 struct RestitutionCurve {
   std::size_t dataset = 0;
   std::string series;
@@ -17,15 +17,15 @@ struct RestitutionCurve {
   std::vector<double> velocity;      ///< [m/s]
   std::vector<double> restitution;   ///< full fit [1]
   std::vector<double> lower, upper;  ///< band of the full fit [1]; empty without a bootstrap
-  std::vector<double> two_point;     ///< the two-point calibration [1]; empty when it failed
-  std::size_t series_number = PointConditions::no_series;  ///< of `series` in its dataset
+  std::vector<double> two_point;     ///< the two-point calibration [1]; empty if it failed
+  std::size_t series_number = PointConditions::no_series;  ///< index of `series` in its dataset
 };
 
-/// The replicates that make a band.
+/// The replicates from which a band is computed.
 struct BandSource {
   const std::vector<std::vector<double>>& theta;  ///< [count][slots]
   double level = 0.95;
-  int threads = 0;  ///< 0: all cores. No digit depends on it.
+  int threads = 0;  ///< 0: all cores. Results do not depend on it.
 };
 
 /// e(V) of every series from below capture (or the slowest point) to above the fastest point, with

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The estimator as a library of its own, CMake target `recoil_estimator`: bounded nonlinear least
-/// squares, and the intervals that follow from a fit and its bootstrap replicates. It is a plain
-/// function of residuals and derivatives and knows nothing of impacts.
+/// squares, and the intervals that follow from a fit and its bootstrap replicates. It needs only
+/// residuals and derivatives and is independent of impacts.
 ///
 ///   recoil::LeastSquaresProblem problem;        // residuals, bounds, scales
 ///   recoil::LeastSquaresResult fit = recoil::minimise(problem, start);

@@ -11,11 +11,10 @@
 namespace recoil {
 namespace {
 
-constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no scale
-// Two parameters this correlated trade against each other over the whole of their errors.
+constexpr double least_loss = 0.01;  // lower limit of the loss 1 - e^2 in a scale
 
-/// For every slot the change that alone would make up the whole loss 1 - e^2 at the point that it
-/// moves most: 1 / max_i |d ln(1 - e_i^2) / d theta_j| [slots]; 0 where nothing is moved.
+/// For every slot, the change that would alone account for the loss 1 - e^2 at the most sensitive
+/// point: 1 / max_i |d ln(1 - e_i^2) / d theta_j| [slots]; 0 without effect.
 std::vector<double> loss_scales(const FitResult& fitted) {
   std::vector<PointConditions> places;
   for (const Observation& point : fitted.data.points) {
@@ -33,21 +32,24 @@ std::vector<double> loss_scales(const FitResult& fitted) {
   return largest;
 }
 
-/// Upper 95 % limit of a standard error over the standard error, its noise being estimated with
+/// Upper 95 % limit of a standard error over the standard error, if the noise is estimated with
 /// `dof` degrees of freedom (chi-squared); 1 for known noise.
 double largest_error_factor(int dof) {
   constexpr double level = 0.95;
   return dof > 0 ? std::sqrt(dof / gsl_cdf_chisq_Qinv(level, dof)) : 1.0;
 }
 
-/// The standard error of slot j or, where it rests on a bound, what its interval says of one.
+/// The standard error of slot j; if it rests on a bound, the one that corresponds to its interval.
 double error_of(const FitResult& fitted, std::size_t j, const Interval& interval) {
-  constexpr double one_sided = 1.96;  // of a 95 % interval that begins at the bound
+  // Width in standard errors of a 95 % interval that begins at the bound.
+  constexpr double one_sided = 1.96;
   if (fitted.std_error[j] > 0.0 || !interval.available()) return fitted.std_error[j];
   return (*interval.upper - *interval.lower) / one_sided;
 }
 
-/// @param error of the parameter, `most` its upper limit; `scale` the size against which they count
+/// @param error standard error of the parameter
+/// @param most its upper 95 % limit
+/// @param scale the scale with which both are compared
 std::optional<Hindrance> hindrance_of(const FitResult& fitted, std::size_t j,
                                       const Interval& interval, double error, double most,
                                       double scale) {
@@ -78,7 +80,8 @@ std::vector<CorrelatedParameters> correlated_parameters(const FitResult& fitted)
   return found;
 }
 
-/// The slowest impacts over the capture velocity, where they do not reach down to it.
+/// The smallest ratio of impact velocity to capture velocity, if it is too large to determine the
+/// adhesion; else nullopt.
 std::optional<double> too_far_above_capture(const FitResult& fitted,
                                             const std::vector<CaptureEstimate>& capture) {
   double nearest = INFINITY;
@@ -91,7 +94,8 @@ std::optional<double> too_far_above_capture(const FitResult& fitted,
       }
     }
   }
-  constexpr double close_enough = 1.5;  // inside it the rise of e separates adhesion from plateau
+  // Below this ratio the rise of e distinguishes adhesion from the plateau.
+  constexpr double close_enough = 1.5;
   if (!std::isfinite(nearest) || nearest <= close_enough) return std::nullopt;
   return nearest;
 }

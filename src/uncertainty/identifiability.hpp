@@ -18,7 +18,7 @@ struct NamesOf<IdentifiabilityVerdict> {
                                                             "not_identifiable"};
 };
 
-/// What stands in the way of a parameter.
+/// The reason why a parameter is not identifiable.
 enum class Hindrance {
   no_interval,
   reaches_upper_bound,
@@ -26,7 +26,7 @@ enum class Hindrance {
   rests_on_bound,
   consistent_with_zero,
   large_error,
-  uncertain_error,  ///< small, but as the noise is estimated it may be large
+  uncertain_error,  ///< the error is small, but may be large because the noise is estimated
   undecided_noise,  ///< its error depends on the variance function that is assumed
   wide_spread,      ///< the capture velocity scatters too much from impact to impact
 };
@@ -38,59 +38,61 @@ struct NamesOf<Hindrance> {
       "uncertain_error", "undecided_noise",      "wide_spread"};
 };
 
-/// Standard error over the scale of a parameter that counts as well determined, at most.
+/// Largest standard error over the scale of a parameter that counts as well determined [1].
 inline constexpr double widest_error = 0.1;
 
 struct ParameterIdentifiability {
-  bool identifiable = false;            ///< on its own; false where it is not free
-  std::optional<Hindrance> hindrance;   ///< none where it is not free
+  bool identifiable = false;            ///< well determined on its own; false if it is not free
+  std::optional<Hindrance> hindrance;   ///< nullopt if it is not free or well determined
   double relative_error = 0.0;          ///< standard error over the estimate [1]
-  double largest_relative_error = 0.0;  ///< its upper 95 % limit, the noise being estimated [1]
-  double loss_scale = 0.0;              ///< what alone would make up the whole loss, see below
-  double noise_factor = 1.0;            ///< between its errors under the variance functions
-  bool upper_limit = false;             ///< identifiable though its interval begins at zero
+  double largest_relative_error = 0.0;  ///< its upper 95 % limit if the noise is estimated [1]
+  double loss_scale = 0.0;  ///< the change that would alone account for the loss, see below
+  /// Ratio of its largest to its smallest error under the variance functions [1].
+  double noise_factor = 1.0;
+  bool upper_limit = false;  ///< identifiable, with an interval that begins at zero
 };
 
-/// Two parameters that trade against each other over the whole of their errors.
+/// Two parameters so correlated (`strong_correlation`) that only a combination is determined.
 struct CorrelatedParameters {
   std::size_t one = 0, other = 0;  ///< slots
   double correlation = 0.0;
 };
 
-/// What the data can tell about the parameters.
+/// How well the data determine the parameters.
 struct Identifiability {
   IdentifiabilityVerdict verdict = IdentifiabilityVerdict::not_identifiable;
   std::vector<ParameterIdentifiability> parameter;  ///< [slots]
   double event_spread = 0.0;  ///< relative scatter of V* from impact to impact [1]
   std::vector<CorrelatedParameters> correlated;
-  Information information;  ///< what the points know, direction by direction
-  /// The slowest impacts over the capture velocity [1], where they are too far from it.
+  Information information;  ///< the information of the points by direction
+  /// The smallest ratio of impact velocity to capture velocity [1], if it is too large to determine
+  /// the adhesion.
   std::optional<double> slowest;
-  bool more_points = false;  ///< would they help?
+  /// More points would help: the impacts are too far above capture, or a parameter is not well
+  /// determined.
+  bool more_points = false;
 
   bool assessed() const { return !parameter.empty(); }
 };
 
 /// A parameter counts as well determined when its recommended interval exists and its standard
-/// error is below `widest_error` of the parameter's scale: the larger of its value and of what
-/// alone would make up the whole loss 1 - e^2 at the point that it moves most. That scale hardly
-/// depends on the luck of an estimate. Its value alone would, and so would asking whether the
-/// interval is clear of zero: both pick the data sets in which the parameter came out large, or in
-/// which the interval contains the truth more often than promised (reports/coverage-grid-*.md). A
-/// parameter so small that its interval begins at zero can therefore be well determined; it is then
-/// an upper limit.
+/// error is below `widest_error` of the parameter's scale: the larger of its value and of the
+/// change that would alone account for the loss 1 - e^2 at the most sensitive point. This scale
+/// hardly depends on the noise. The value alone does, and so does the criterion that the interval
+/// excludes zero: both select data sets in which the estimate is large by chance, or in which the
+/// coverage differs from the level (reports/coverage-grid-*.md). A parameter so small that its
+/// interval begins at zero can therefore be well determined; the interval is then an upper limit.
 ///
-/// Where the noise is estimated, so is the error, and a lucky one must not make a parameter
-/// well determined: it is the upper 95 % limit of the error (chi-squared) that has to be below the
-/// limit. So a parameter whose actual error is above it is called well determined in one of twenty
-/// data sets at most; how often it is stands in the tables of the coverage study. Which data sets
-/// are called so still depends on their noise, and the interval's level is that over all data sets.
+/// If the noise is estimated, the error may be small by chance. Therefore its upper 95 % limit
+/// (chi-squared) must be below the limit. A parameter with a larger true error then counts as well
+/// determined in at most one of twenty data sets; the coverage study tabulates how often. The
+/// selection still depends on the noise, and the level of the interval holds over all data sets.
 ///
-/// Where the noise is estimated, its error must not depend on the variance function, either: where
-/// it differs by more than `undecided` between functions that the points cannot decide between, the
-/// interval may be too narrow or too wide.
-/// Nor may the capture velocity scatter by more than `widest_spread` from impact to impact.
-/// @param alternatives of `noise_alternatives`; may be left out where the noise is stated
+/// If the noise is estimated, the error must also not depend on the variance function: if it
+/// differs by more than the factor `undecided` between functions that the points cannot
+/// distinguish, the interval may be too narrow or too wide. The scatter of the capture velocity
+/// from impact to impact must not exceed `widest_spread`.
+/// @param alternatives of `noise_alternatives`; may be empty if the noise is stated
 Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,

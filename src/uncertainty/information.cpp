@@ -11,10 +11,11 @@ namespace recoil {
 namespace {
 
 constexpr int planned_points = 5;
-// A direction has the meaning of a combination when it points this closely along it.
+// A direction is named after a combination if the cosine of the angle between them is at least
+// this.
 constexpr double close_direction = 0.97;
 
-/// The slots that were estimated inside their bounds.
+/// The free slots whose estimate is positive and not at a bound.
 std::vector<std::size_t> inner_slots(const FitResult& fitted) {
   std::vector<std::size_t> inner;
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
@@ -25,7 +26,7 @@ std::vector<std::size_t> inner_slots(const FitResult& fitted) {
   return inner;
 }
 
-/// Those of the uncertain constants of the materials.
+/// The slots of the uncertain material constants.
 std::vector<std::size_t> constant_slots(const FitResult& fitted) {
   std::vector<std::size_t> slots;
   for (std::size_t j = fitted.model.first_constant(); j < fitted.theta.size(); ++j) {
@@ -40,11 +41,11 @@ std::vector<std::size_t> joined(std::vector<std::size_t> one,
   return one;
 }
 
-/// The information about the first `count`, the free parameters, from that of the points about them
-/// and the constants, both in relative terms. Where the points move the constants it is the Schur
-/// complement; where the fit holds them, the inverse of A^-1 + A^-1 B S B' A^-1 with A the
-/// parameters' block, B that beside it and S the variances of the constants; A where it is
-/// singular.
+/// The information about the first `count` parameters (the free ones), given the information of the
+/// points about these and the constants, all in logarithms. If the fit moves the constants, it is
+/// the Schur complement. If the fit holds them, it is the inverse of A^-1 + A^-1 B S B' A^-1, with
+/// A the block of the parameters, B the block next to it and S the variances of the constants; A
+/// itself if A is singular.
 Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd& points,
                                   std::size_t count) {
   const auto p = static_cast<Eigen::Index>(count);
@@ -70,7 +71,8 @@ Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd
   return (lu.inverse() + effects * effects.transpose()).inverse();
 }
 
-/// Derivatives of the weighted residuals of `data` by ln theta of `inner`, at the estimate [n x p].
+/// Derivatives of the weighted residuals of `data` with respect to ln theta of the slots `inner`,
+/// at the estimate [n x inner].
 Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations& data,
                                      const std::vector<std::size_t>& inner) {
   const LeastSquaresProblem problem = impact_problem(fitted.model, data);
@@ -90,7 +92,7 @@ Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations
   return jacobian;
 }
 
-/// Standard deviations of ln theta [slots]; infinite where J'J is singular.
+/// Standard deviations of ln theta [slots]; infinite if J'J is singular; 0 for other slots.
 std::vector<double> relative_deviations(const Eigen::MatrixXd& fisher, std::size_t slots,
                                         const std::vector<std::size_t>& inner) {
   std::vector<double> sd(slots, 0.0);
@@ -105,7 +107,7 @@ std::vector<double> relative_deviations(const Eigen::MatrixXd& fisher, std::size
   return sd;
 }
 
-/// A combination as the gradient of its logarithm in ln theta.
+/// A combination, with the gradient of its logarithm in ln theta.
 struct Meaning {
   Combination combination;
   std::vector<double> gradient;  // [slots]
@@ -176,7 +178,7 @@ std::vector<InformationDirection> directions_of(
   return directions;
 }
 
-/// The observation of `like` that stands nearest in log V, moved to `velocity`.
+/// The planned observation: the one nearest in ln V, preferably of this place, moved to `velocity`.
 Observation planned(const Observations& data, const CapturePlace& place, double velocity) {
   const Observation* nearest = nullptr;
   const auto distance = [&](const Observation& o) {
@@ -231,7 +233,7 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
 }  // namespace
 
 std::vector<ErrorGain> worthwhile_gains(const Information& information) {
-  constexpr double worth_a_word = 0.8;  // of the present error
+  constexpr double worth_a_word = 0.8;  // largest ratio of new to present error worth reporting
   std::vector<ErrorGain> gains;
   if (information.plans.empty()) return gains;
   const std::vector<double>& then = information.plans.front().relative_sd;

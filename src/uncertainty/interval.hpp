@@ -9,12 +9,12 @@
 
 namespace recoil {
 
-/// Ways to an interval of a parameter, in the order in which they are shown.
+/// Kinds of interval of a parameter, in the order of display.
 enum class IntervalKind {
   wald,         ///< estimate and standard error
-  profile,      ///< of the likelihood
-  percentile,   ///< of the bootstrap
-  bca,          ///< of the bootstrap, corrected for bias and acceleration
+  profile,      ///< profile likelihood
+  percentile,   ///< bootstrap percentiles
+  bca,          ///< bootstrap percentiles, corrected for bias and acceleration
   studentized,  ///< bootstrap-t
 };
 template <>
@@ -23,31 +23,32 @@ struct NamesOf<IntervalKind> {
                                                             "studentized"};
 };
 
-/// How many ends of a profile interval the likelihood has set, and not a bound of the parameter.
+/// How many ends of a profile interval the likelihood determines: both, one, or none. The others
+/// are bounds of the parameter.
 enum class ProfileShape { bounded, one_sided, flat };
 template <>
 struct NamesOf<ProfileShape> {
   static constexpr std::array<std::string_view, 3> names = {"bounded", "one-sided", "flat"};
 };
 
-/// Why there is no interval.
+/// The reason for a missing interval.
 enum class NoInterval {
-  not_assessed,              ///< nothing was asked about uncertainty
+  not_assessed,              ///< no uncertainty was requested
   fixed,                     ///< the parameter was not fitted
-  nothing_free,              ///< nothing was fitted
-  no_standard_error,         ///< it rests on a bound, or the points do not determine it
-  refit_failed,              ///< one along the profile, with the parameter held
+  nothing_free,              ///< no parameter was fitted
+  no_standard_error,         ///< the parameter rests on a bound, or the points do not determine it
+  refit_failed,              ///< a refit along the profile failed
   few_replicates,            ///< fewer than `fewest_replicates`
-  few_delete_one_refits,     ///< fewer than three
-  one_sided_replicates,      ///< all on one side of the estimate, as at a bound
-  large_acceleration,        ///< too large for the level
-  replicates_without_error,  ///< more than a tenth of them rest on a bound
-  refits_failed,             ///< more than a tenth of them
-  never_rebounds,            ///< a capture velocity: spheres of this size stay at any velocity
-  never_captured,            ///< a capture velocity of spheres that always rebound
-  no_covariance,             ///< the fit has no standard errors
-  noise_unknown,             ///< neither stated nor to be estimated
-  all_captured,              ///< a capture velocity where no sphere rebounded
+  few_delete_one_refits,     ///< fewer than three delete-one refits succeeded
+  one_sided_replicates,      ///< all replicates lie on one side of the estimate, as at a bound
+  large_acceleration,        ///< the BCa acceleration is too large for the level
+  replicates_without_error,  ///< more than 10 % of the replicates rest on a bound
+  refits_failed,             ///< more than 10 % of the refits failed
+  never_rebounds,  ///< capture velocity: spheres of this size are captured at any velocity
+  never_captured,  ///< capture velocity: spheres of this size always rebound
+  no_covariance,   ///< the fit has no standard errors
+  noise_unknown,   ///< the noise is not stated and cannot be estimated
+  all_captured,    ///< capture velocity: no sphere rebounded
 };
 template <>
 struct NamesOf<NoInterval> {
@@ -62,24 +63,24 @@ struct NamesOf<NoInterval> {
       "noise_unknown",         "all_captured"};
 };
 
-/// The least number of replicates that have an interval: (B + 1) (1 - level) / 2 >= 1.
+/// The smallest number of replicates for an interval: (B + 1) (1 - level) / 2 >= 1.
 inline std::size_t fewest_replicates(double level) {
   return static_cast<std::size_t>(std::ceil(2.0 / (1.0 - level) - 1.0 - 1e-6));
 }
 
-/// The share of the replicates that have to answer where a band is drawn.
+/// The share of the replicates that must have a value for a band to be drawn [1].
 inline constexpr double share_for_band = 0.9;
 
-/// The correlation beyond which two parameters are known together only.
+/// The correlation above which only a combination of two parameters counts as determined [1].
 inline constexpr double strong_correlation = 0.97;
 
-/// In how many of 1000 data sets, simulated sphere by sphere, the interval of V* at a level of 95 %
-/// contained the truth where every point averages over the sizes of its spheres: the smaller of
-/// what was found with constants of the materials that are drawn (0.930) and exact (0.923)
-/// (reports/coverage-designs.md, reports/coverage-designs-exact.md).
+/// Coverage of the 95 % interval of V* if every point averages over the sizes of its spheres, from
+/// 1000 data sets simulated sphere by sphere: the smaller of two results, with drawn (0.930) and
+/// with exact material constants (0.923) (reports/coverage-designs.md,
+/// reports/coverage-designs-exact.md).
 inline constexpr double mixed_capture_coverage = 0.92;
 
-/// What has to be known beside the numbers of an interval.
+/// A caution that belongs to an interval.
 enum class Caution {
   spans_both_bounds,  ///< the data do not limit this parameter
   begins_at_bound,    ///< an upper limit
@@ -87,7 +88,7 @@ enum class Caution {
   undecided_noise,    ///< see `undecided`
   wide_spread,        ///< see `widest_spread`
   mixed_sizes,        ///< see `mixed_capture_coverage`
-  model_rejected,     ///< the data reject the model from which the value follows
+  model_rejected,     ///< the data reject the model that gives the value
 };
 template <>
 struct NamesOf<Caution> {
@@ -98,20 +99,20 @@ struct NamesOf<Caution> {
 
 struct IntervalNote {
   Caution caution = Caution::begins_at_bound;
-  /// The bound, the factor between the errors, the spread of the impacts, a measured coverage, or
-  /// the p-value of the fit.
+  /// The number of the caution: the bound, the ratio of the errors, the spread of the impacts, a
+  /// simulated coverage, or the p-value of the fit.
   double value = 0.0;
 };
 
-/// [lower, upper] in the parameter's unit, or the reason why there is none.
+/// [lower, upper] in the parameter's unit, or the reason for a missing interval.
 struct Interval {
   std::optional<double> lower;
   std::optional<double> upper;
-  std::optional<NoInterval> missing;  ///< why there is none
-  std::optional<ProfileShape> shape;  ///< of a profile
+  std::optional<NoInterval> missing;  ///< reason for a missing interval
+  std::optional<ProfileShape> shape;  ///< shape of a profile interval
   std::optional<IntervalNote> note;
   /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
-  /// other seeds. None where nothing is random.
+  /// other seeds. Nullopt if nothing is random.
   std::optional<double> lower_error, upper_error;
 
   bool available() const { return lower.has_value() && upper.has_value(); }
@@ -132,16 +133,17 @@ struct BcaConstants {
 
 /// One point of a profile likelihood.
 struct ProfilePoint {
-  double value = 0.0;    ///< of the parameter [its unit]
-  double rise = 0.0;     ///< of chi2 over its minimum, the others refitted, in units of s^2 [1]
-  double allowed = 0.0;  ///< the rise at which the interval would end here [1]
+  double value = 0.0;  ///< value of the parameter [its unit]
+  double rise = 0.0;   ///< increase of chi2 over its minimum with the other parameters refitted, in
+                       ///< units of s^2 [1]
+  double allowed = 0.0;  ///< the rise at which an interval ends at this value [1]
 };
 
-/// By which rule of `recommend` an interval is the one to quote.
+/// The rule of `recommend` that selected the interval to quote.
 enum class RecommendedBecause {
   noise_stated,     ///< the profile, under stated standard deviations
   noise_estimated,  ///< the profile, with Student's factor
-  no_profile,       ///< the next best, for want of a profile
+  no_profile,       ///< percentile or Wald, as there is no profile
 };
 template <>
 struct NamesOf<RecommendedBecause> {
@@ -149,17 +151,17 @@ struct NamesOf<RecommendedBecause> {
                                                             "no_profile"};
 };
 
-/// Why the intervals of one parameter differ: which of them differ, and what the numbers show.
+/// The differences between the intervals of one parameter, and their causes.
 struct Disagreement {
   struct Difference {
     IntervalKind kind = IntervalKind::wald;
-    double by = 0.0;  ///< of the recommended width [1]
+    double by = 0.0;  ///< largest difference of an end, over the recommended width [1]
   };
-  /// Replicates that rest on a bound, of this parameter or of one that it is correlated with.
+  /// Replicates at a bound of this parameter, or of one that is correlated with it.
   struct OnBound {
     std::size_t slot = 0;
-    double share = 0.0;        ///< of the replicates [1]
-    double correlation = 0.0;  ///< with this parameter, where it is another one
+    double share = 0.0;        ///< share of the replicates [1]
+    double correlation = 0.0;  ///< correlation with this parameter, if it is another one
   };
   struct Ridge {
     std::size_t partner = 0;  ///< slot
@@ -167,15 +169,15 @@ struct Disagreement {
   };
   struct FewPoints {
     int dof = 0;
-    double factor = 1.0;  ///< of Student's quantile over the normal one
+    double factor = 1.0;  ///< ratio of Student's quantile to the normal one [1]
   };
 
   std::vector<Difference> differing;
   bool estimate_at_bound = false;
   std::optional<OnBound> on_bound;
   std::optional<Ridge> ridge;
-  std::optional<double> acceleration, bias;  ///< of BCa, where they are large
-  std::optional<double> arms;  ///< how many times as far up as down the profile reaches, if skewed
+  std::optional<double> acceleration, bias;  ///< constants of BCa, if they are large
+  std::optional<double> arms;                ///< upper over lower arm of the profile, if skewed [1]
   std::optional<FewPoints> few_points;
 
   bool skewed() const { return acceleration || bias || arms; }
@@ -184,15 +186,15 @@ struct Disagreement {
   }
 };
 
-/// Every interval of one parameter, at one level.
+/// All intervals of one parameter, at one level.
 struct IntervalSet {
   PerValue<IntervalKind, Interval> of_kind;
   IntervalKind recommended = IntervalKind::wald;
   RecommendedBecause because = RecommendedBecause::no_profile;
-  std::vector<ProfilePoint> profile_curve;   ///< empty unless `curves` were asked for
-  std::optional<Disagreement> disagreement;  ///< none when the kinds agree
+  std::vector<ProfilePoint> profile_curve;   ///< empty unless requested (`add_profile_curves`)
+  std::optional<Disagreement> disagreement;  ///< nullopt if the kinds agree
   std::optional<BcaConstants> bca_constants;
-  std::optional<double> bound_share;  ///< of the usable replicates that rest on a bound [1]
+  std::optional<double> bound_share;  ///< share of the usable replicates at a bound [1]
 
   Interval& operator[](IntervalKind kind) { return of_kind[kind]; }
   const Interval& operator[](IntervalKind kind) const { return of_kind[kind]; }

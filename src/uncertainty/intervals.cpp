@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-/// Normal (dof 0) or Student.
+/// Distribution function: normal for dof 0, else Student's t.
 double distribution(double x, int dof) {
   return dof > 0 ? gsl_cdf_tdist_P(x, dof) : gsl_cdf_ugaussian_P(x);
 }
@@ -64,10 +64,10 @@ std::optional<double> bca_level(const BcaConstants& constants, double p) {
 
 namespace {
 
-/// Standard deviation of the rank at which BCa reads its end. With F the empirical distribution,
-/// the end solves F(x) = q(z0), z0 = Phi^-1(F(estimate)); to first order the rank moves by
-/// B [g (F(estimate) - below) - (F(x) - q)], g = (dq/dz0) / phi(z0), and the covariance of F at two
-/// places is (min - product) / B.
+/// Standard deviation of the rank of a BCa end among the replicates. With F the empirical
+/// distribution, the end solves F(x) = q(z0), z0 = Phi^-1(F(estimate)); to first order the rank
+/// changes by B [g (F(estimate) - below) - (F(x) - q)], g = (dq/dz0) / phi(z0), and the covariance
+/// of F at two points is (min - product) / B.
 double bca_rank_sd(const BcaConstants& constants, double p, double q, double count) {
   const double below = gsl_cdf_ugaussian_P(constants.bias);
   const double w = constants.bias + gsl_cdf_ugaussian_Pinv(p);
@@ -170,7 +170,7 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
       }
       return below - p;
     };
-    // All alike: the ends are where that is but for rounding.
+    // If all terms are equal, the ends agree up to rounding.
     const double found = low < high ? find_root(excess, low, high) : low;
     return std::isnan(found) ? 0.5 * (low + high) : found;
   };
@@ -184,7 +184,7 @@ double profile_quantile(double level, int dof, double distance) {
   if (distance * distance >= far) return far;
   const double on_bound = level > 0.5 ? std::pow(distribution_inverse(level, dof), 2) : 0.0;
   if (!(distance > 0.0)) return on_bound;
-  // The probability rises with c; at the ends it may be the level already, but for rounding.
+  // The probability increases with c; at the ends it may equal the level up to rounding.
   const auto excess = [&](double c) {
     return distribution(std::sqrt(c), dof) -
            distribution(-(c + distance * distance) / (2.0 * distance), dof) - level;
@@ -221,7 +221,7 @@ std::vector<double> sandwich_covariance(std::span<const double> residuals,
   const std::size_t n = residuals.size();
   const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
   std::vector<double> sandwich(p * p, 0.0);
-  std::vector<double> step(p);  // how far point i moves every parameter
+  std::vector<double> step(p);  // influence of point i on every parameter
   for (std::size_t i = 0; i < h.size(); ++i) {
     const double scaled = residuals[i] / (1.0 - std::min(h[i], most_leverage));
     for (std::size_t a = 0; a < p; ++a) {

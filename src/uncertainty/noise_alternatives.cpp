@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-constexpr double negligible = 1e-3;  // weight
+constexpr double negligible = 1e-3;  // weight below which an alternative is omitted
 constexpr double plausible = 0.05;
 
 double total_criterion(const VarianceCandidate& candidate) {

@@ -7,40 +7,38 @@
 
 namespace recoil {
 
-/// The fit under one of the variance functions that its points allow.
+/// The fit under one of the variance functions that agree with its points.
 struct NoiseAlternative {
-  double weight = 1.0;  ///< share of it in the averaged intervals; all add up to 1
+  double weight = 1.0;  ///< its weight in averaged intervals; the weights add up to 1
   FitResult fitted;
 };
 
-/// The fit itself and, where its variance function was chosen among several, the fits with the
-/// others, weighted by exp(-(c - c_min) / 2), c being the restricted criterion with its penalty
-/// (see `reweighted_fit`). Functions that weigh less than a thousandth are left out; a fit with
-/// stated or prescribed noise stands alone.
+/// The fit itself and, if its variance function was chosen among several, the fits with the others.
+/// The weights are proportional to exp(-(c - c_min) / 2), where c is the restricted criterion with
+/// its penalty (see `reweighted_fit`). Functions with a relative weight below 0.001 are omitted. A
+/// fit with stated noise, or with a variance function from the fit file, has no alternatives.
 std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted);
 
-/// One quantity under every alternative: slot j.
+/// The estimate of slot j under every alternative.
 std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
                                     std::size_t j);
 
-/// By what factor the errors differ that the data cannot decide between: the largest over the
-/// smallest of those that weigh at least a twentieth. 1 without a choice.
+/// The ratio of the largest to the smallest error among the alternatives with a weight of at least
+/// 0.05, between which the data cannot decide. 1 without a choice.
 double undecided_factor(const std::vector<WaldTerm>& terms);
 
-/// Beyond this factor an error depends on the variance function that is assumed, and the verdict
-/// says so.
+/// Above this ratio an error depends on the assumed variance function, and the verdict states it.
 constexpr double undecided = 1.5;
 
-/// Where the capture velocity scatters from impact to impact by more than this, the intervals are
-/// not to be trusted: e^2 of the impacts at one velocity is taken as normal (see `reweighted_fit`),
-/// while in truth it is about 1 - (V* exp(-omega z) / V)^3 and has a long tail below. With omega =
-/// 0.1 intervals contain the truth as often as they promise; in simulations of 14 points with omega
-/// = 0.27 to 0.5 those of C_H and of the capture velocity contained the truth in 8 to 67 % of the
-/// data sets.
+/// If the capture velocity scatters from impact to impact by more than this (relative, omega),
+/// intervals are not reliable: e^2 of the impacts at one velocity is assumed normal (see
+/// `reweighted_fit`), although it is about 1 - (V* exp(-omega z) / V)^3, with a long lower tail.
+/// With omega = 0.1 the coverage equals the level; in simulations of 14 points with omega = 0.27 to
+/// 0.5 the coverage of C_H and of the capture velocity was 8 to 67 %.
 constexpr double widest_spread = 0.2;
 
-/// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), cut at
-/// the slot's bounds; the plain one where there is a single alternative.
+/// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), clipped
+/// at the slot's bounds; the ordinary one for a single alternative.
 Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
                          double level);
 

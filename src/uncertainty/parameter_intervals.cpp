@@ -16,7 +16,7 @@ namespace recoil {
 
 namespace {
 
-/// Percentile, BCa and studentized intervals of slot j; no intervals when too many refits failed.
+/// Percentile, BCa and studentized intervals of slot j; no intervals if too many refits failed.
 void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::size_t j,
                    const std::vector<std::vector<double>>& delete_one, double level,
                    IntervalSet& set) {
@@ -108,16 +108,17 @@ std::optional<ConditionalFit> conditional_fit(const FitResult& fitted, double le
 
 namespace {
 
-constexpr double clear_difference = 0.15;  // of the recommended width
+// Smallest difference reported, over the recommended width.
+constexpr double clear_difference = 0.15;
 constexpr double many_at_bound = 0.05;
-constexpr double coupled = 0.5;  // correlation at which another parameter's bound is felt
+constexpr double coupled = 0.5;  // correlation above which another parameter's bound matters
 constexpr double clear_acceleration = 0.05;
 constexpr double clear_bias = 0.15;
 constexpr double clear_asymmetry = 1.25;
 constexpr double clear_student = 1.1;
 
-/// The larger distance of the two ends from those of `reference`, over its width, less what chance
-/// can do (two Monte-Carlo errors).
+/// The larger distance of the two ends from those of `reference`, minus two Monte-Carlo errors,
+/// over the width of `reference`.
 double difference(const Interval& interval, const Interval& reference) {
   const double width = *reference.upper - *reference.lower;
   if (!(width > 0.0)) return 0.0;
@@ -130,7 +131,7 @@ double difference(const Interval& interval, const Interval& reference) {
   return std::max(low, high) / width;
 }
 
-/// Correlation of two free parameters; 0 where either has no error.
+/// Correlation of two free parameters; 0 if either has no standard error.
 double correlation_of(const FitResult& fitted, std::size_t a, std::size_t b) {
   const double scale = fitted.std_error[a] * fitted.std_error[b];
   if (fitted.covariance.empty() || !(scale > 0.0)) return 0.0;

@@ -19,9 +19,10 @@
 namespace recoil {
 namespace {
 
-/// theta as the sampler sees it: what moves, as logarithms where it is fitted so, and those of the
-/// damping factors: along C_A ~ f0^-3.75 or so the density is bent in C_A and straight in ln C_A.
-/// Not where one may be 0: towards that its logarithm goes on without end.
+/// The coordinates z of the sampler: the moving parameters, as logarithms for `log_scale` and for
+/// damping factors. (The density extends along C_A ~ f0^-3.75, which is curved in C_A and straight
+/// in ln C_A.) A damping factor that may be 0 keeps a linear coordinate, because its logarithm is
+/// unbounded.
 class PosteriorCoordinates {
  public:
   explicit PosteriorCoordinates(const FitResult& fitted)
@@ -37,7 +38,8 @@ class PosteriorCoordinates {
   }
   /// d theta / d z.
   double slope(std::size_t j, double value) const { return logarithmic(j) ? value : 1.0; }
-  /// ln d theta / d z of those with a prior that is flat in theta.
+  /// The log-Jacobian: sum of ln d theta / d z over the logarithmic coordinates whose prior is flat
+  /// in theta.
   double log_volume(std::span<const double> z) const {
     double sum = 0.0;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -45,7 +47,7 @@ class PosteriorCoordinates {
     }
     return sum;
   }
-  /// Nothing outside of the bounds.
+  /// Computes theta from z. @return false if it is outside the bounds
   bool to_theta(std::span<const double> z, std::vector<double>& theta) const {
     theta = theta_;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -58,7 +60,8 @@ class PosteriorCoordinates {
   }
 
  private:
-  /// Does its prior ask for a factor of itself, as it is flat and its coordinate the logarithm?
+  /// Has the slot a prior flat in theta but a logarithmic coordinate, so that the density in z has
+  /// a factor theta?
   bool flat_itself(std::size_t j) const {
     constexpr double clear_of_zero = 2.0;  // standard errors
     return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
@@ -71,15 +74,15 @@ class PosteriorCoordinates {
   std::vector<std::size_t> moving_;
 };
 
-/// Is the scale of the noise a parameter, too?
+/// Is the scale of the noise a parameter?
 bool scale_unknown(const FitResult& fitted) {
   return !fitted.data.sd_stated || fitted.noise_verdict == NoiseVerdict::exceeded;
 }
 
-/// A place of a chain.
+/// A state of a chain.
 struct Place {
   std::vector<double> z, theta, residuals;
-  double log_density = -INFINITY;  ///< in z
+  double log_density = -INFINITY;  ///< posterior density in z, up to a constant
 };
 
 /// The posterior under one variance function, for one thread.
@@ -93,7 +96,7 @@ class Posterior {
         log_determinant_(SharedSettings(data_.points).log_determinant()) {
     data_.constants_weight = 1.0;
     problem_ = impact_problem(fitted.model, data_);
-    // ln of the densities at their peaks but for the scale. That of a mean is normal in e.
+    // ln of each point's density at its peak, for scale 1. The density of a mean is normal in e.
     for (const Observation& point : data_.points) {
       const double square = point.restitution * point.restitution;
       double ln = 0.0;
@@ -125,7 +128,8 @@ class Posterior {
                         (scaled ? 0.5 * rebounds * std::log(scatter) : 0.0);
   }
 
-  /// The estimate, and the covariance of Gauss and Newton there: J'J, and what the bounds leave.
+  /// The estimate in z, and the Gauss-Newton covariance there, from J'J and the precision of the
+  /// priors.
   std::pair<Eigen::VectorXd, Eigen::MatrixXd> normal_about_estimate() {
     const std::vector<std::size_t>& moving = coordinates.moving();
     const std::size_t p = fitted_.theta.size();
@@ -159,7 +163,7 @@ class Posterior {
     return {centre, precision.inverse()};
   }
 
-  /// A draw of the scale of the noise, given the parameters.
+  /// Draws the scale of the noise, given the parameters.
   double draw_scale(const Place& place, RandomStream& random) const {
     const auto [scatter, rebounds, rest] = sums(place.residuals);
     return std::sqrt(scatter / gsl_cdf_chisq_Pinv(random.uniform(), rebounds));
@@ -173,9 +177,9 @@ class Posterior {
     }
     return each;
   }
-  /// What the errors that points share add to its sum.
+  /// The term that shared errors add to the sum of `pointwise`.
   double shared() const { return -0.5 * log_determinant_; }
-  /// ln prior density of theta, in ln theta where that is fitted.
+  /// ln prior density of theta, or of ln theta for `log_scale`.
   double log_prior(const Place& place, double scale) const {
     double ln = -std::log(scale);
     for (const std::size_t j : coordinates.moving()) {
@@ -196,8 +200,8 @@ class Posterior {
 
  private:
   struct Sums {
-    double scatter = 0.0;  ///< squares with an unknown scale
-    int rebounds = 0;      ///< how many
+    double scatter = 0.0;  ///< sum of squares with an unknown scale
+    int rebounds = 0;      ///< number of these residuals
     double rest = 0.0;
   };
   bool scatters(std::size_t i) const {
@@ -219,19 +223,19 @@ class Posterior {
   std::vector<double> peaks_;
 };
 
-/// Where chains go next: an ellipsoid in z.
+/// The proposal distributions of the chains, with a common covariance in z.
 class Proposals {
  public:
   Proposals(Eigen::VectorXd centre, const Eigen::MatrixXd& covariance)
       : centre_(std::move(centre)), factor_(covariance) {}
   bool usable() const { return factor_.info() == Eigen::Success && centre_.allFinite(); }
 
-  /// A draw of Student's t about the centre, `wide` times as wide.
+  /// Draws from Student's t about the centre, scaled by `wide`.
   std::vector<double> anywhere(RandomStream& random, double wide = 1.0) const {
     const double squares = gsl_cdf_chisq_Pinv(random.uniform(), freedom);
     return away(centre_, wide * std::sqrt(freedom / squares), random);
   }
-  /// ln density of that draw, but for a constant.
+  /// ln density of `anywhere`, up to a constant.
   double log_density(const std::vector<double>& z) const {
     const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
     const double square = factor_.matrixL().solve(at - centre_).squaredNorm();
@@ -239,13 +243,13 @@ class Proposals {
   }
   std::vector<double> near(const std::vector<double>& z, RandomStream& random) const {
     const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
-    // The best length for a normal density (Roberts, Gelman & Gilks 1997), or a third of it.
+    // The optimal step for a normal density (Roberts, Gelman & Gilks 1997), or a third of it.
     const double length = 2.38 / std::sqrt(static_cast<double>(centre_.size()));
     return away(at, random.uniform() < 0.5 ? length : length / 3.0, random);
   }
 
  private:
-  static constexpr double freedom = 8.0;  // tails that the posterior hardly exceeds
+  static constexpr double freedom = 8.0;  // heavier tails than most posteriors
 
   std::vector<double> away(const Eigen::VectorXd& from, double length, RandomStream& random) const {
     Eigen::VectorXd step(from.size());
@@ -258,7 +262,7 @@ class Proposals {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-/// A Markov chain by Metropolis & Hastings.
+/// A Metropolis-Hastings chain.
 struct Chain {
   std::unique_ptr<Posterior> density;
   RandomStream random;
@@ -266,7 +270,8 @@ struct Chain {
   std::vector<Place> kept;
   int accepted = 0;
 
-  /// Begins somewhere around the estimate, twice as far away as the posterior reaches.
+  /// Draws the start from a distribution twice as wide as the posterior. @return false if no state
+  /// of finite density was found
   bool start(const Proposals& proposals) {
     for (int tries = 0; tries < 1000 && !std::isfinite(at.log_density); ++tries) {
       at.z = proposals.anywhere(random, 2.0);
@@ -288,7 +293,7 @@ struct Chain {
   }
 };
 
-/// The sampler's answer under one variance function of the noise.
+/// The chains under one variance function of the noise.
 struct SampledFit {
   std::optional<NoPosterior> missing;
   int steps = 0;
@@ -330,7 +335,7 @@ Proposals learned(const std::vector<Chain>& chains) {
   return {origin + mean, squares / count - mean * mean.transpose()};
 }
 
-/// @param first_stream of random numbers; every chain has its own
+/// @param first_stream first stream of random numbers; every chain has its own
 SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
                       std::size_t first_stream) {
   SampledFit sampled;
@@ -353,7 +358,7 @@ SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
     return sampled;
   }
   const int shortest = static_cast<int>(options.length);
-  // The first round only warms up.
+  // The first round is only a warm-up.
   bool warm = false;
   for (sampled.steps = shortest;;) {
     const int thin = sampled.steps / shortest;
@@ -392,9 +397,9 @@ SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
   return sampled;
 }
 
-/// Constants that the fit holds: the draws of the parameters were made with the stated ones. Gives
-/// a draw constants of its own, from their errors, and moves it as the fit would move, to first
-/// order (a parameter above 0 by a factor).
+/// Includes the errors of constants that the fit holds. The draws used the stated constants; this
+/// gives each draw its own constants, and shifts its parameters as the fit would change, to first
+/// order (positive parameters by a factor).
 void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
                     RandomStream& random, std::vector<double>& draw) {
   const ImpactModel& model = fitted.model;
@@ -415,8 +420,8 @@ void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& mov
   }
 }
 
-/// Joint draws, each under one of the variance functions by its weight: the fractional parts of
-/// multiples of the golden ratio cover [0, 1) evenly, within every chain.
+/// Selects joint draws from the variance functions in proportion to their weights: the fractional
+/// parts of multiples of the golden ratio cover [0, 1) evenly within every chain.
 void keep_draws(const std::vector<NoiseAlternative>& alternatives,
                 const std::vector<SampledFit>& sampled, const std::vector<std::size_t>& moving,
                 const PosteriorOptions& options, PosteriorResult& result) {

@@ -15,11 +15,11 @@
 
 namespace recoil {
 
-/// Why there is no posterior.
+/// The reason for a missing posterior.
 enum class NoPosterior {
-  no_start,     ///< not enough places of finite density were found near the estimate
-  not_settled,  ///< R-hat or the number of effective draws is not what it has to be
-  few_points,   ///< the noise is unknown, and no more points are there than parameters
+  no_start,     ///< no start with finite density was found near the estimate
+  not_settled,  ///< R-hat is too large or the number of effective draws too small
+  few_points,   ///< the noise is unknown, and there are no more points than parameters
 };
 template <>
 struct NamesOf<NoPosterior> {
@@ -27,10 +27,10 @@ struct NamesOf<NoPosterior> {
                                                             "few_points"};
 };
 
-/// Why points cannot be left out one by one.
+/// The reason for missing leave-one-out densities.
 enum class NoLeaveOneOut {
-  shared_errors,  ///< points share an error: one of them alone has no likelihood
-  student,        ///< the density of robust residuals is known but for a factor
+  shared_errors,  ///< points share errors, so that a single point has no likelihood of its own
+  student,        ///< the density of robust residuals is known only up to a factor
 };
 template <>
 struct NamesOf<NoLeaveOneOut> {
@@ -39,60 +39,64 @@ struct NamesOf<NoLeaveOneOut> {
 
 /// One quantity under the posterior.
 struct PosteriorMarginal {
-  Interval
-      interval;  ///< equal tails; missing for what is fixed, and where the draws have not settled
+  /// Equal tails; missing for fixed parameters and if the chains have not converged.
+  Interval interval;
   double mean = 0.0;
   double sd = 0.0;
   ChainCheck check;
 };
 
-/// The expected log predictive density of points that were left out of the fit, one at a time.
+/// Leave-one-out cross-validation: the expected log predictive density of each point given the
+/// others.
 struct LeaveOneOut {
   std::optional<NoLeaveOneOut> missing;
-  double elpd = 0.0;   ///< sum over the points
-  double se = 0.0;     ///< of elpd: sqrt(n) times the standard deviation over the points
-  double p_loo = 0.0;  ///< ln of the mean likelihood of the points less elpd: effective parameters
+  double elpd = 0.0;  ///< sum over the points
+  /// Standard error of elpd: sqrt(n) times the standard deviation over the points.
+  double se = 0.0;
+  /// Effective number of parameters: sum of ln mean likelihood of the points minus elpd.
+  double p_loo = 0.0;
   std::vector<LeftOutPoint> points;
 };
 
-/// Beyond this shape the smoothed weights of a point are not to be trusted (Vehtari, Simpson,
-/// Gelman, Yao & Gabry 2024, J. Mach. Learn. Res. 25, 72).
+/// Above this shape the smoothed weights of a point are unreliable (Vehtari, Simpson, Gelman, Yao &
+/// Gabry 2024, J. Mach. Learn. Res. 25, 72).
 inline constexpr double largest_pareto_k = 0.7;
 
-/// The posterior of everything that a fit moves, by joint draws. Priors: parameters flat between
-/// their bounds (in the logarithm where they are fitted so), constants of the materials that fits
-/// move as their errors state them. The likelihood is that of the fit, captures included. Where the
-/// noise is estimated, or the stated deviations do not hold (NoiseVerdict::exceeded), they are
-/// multiplied by an unknown scale with the prior 1 / scale; integrated over it,
+/// The posterior of all moving parameters, as joint draws. The priors are flat between the bounds
+/// (in the logarithm for `log_scale`); material constants that fits move have their stated
+/// distributions. The likelihood is that of the fit, including captures. If the noise is estimated,
+/// or if the scatter exceeds the stated deviations (NoiseVerdict::exceeded), the deviations are
+/// multiplied by an unknown scale with the prior 1 / scale; integrated over the scale,
 ///   p ~ (sum r^2)^(-n/2) over the n points with rebounds,
-/// and a draw of the scale is (sum r^2 / chi2_n)^(1/2).
-/// Where the fit chose its variance function, the posterior is the mixture of those under each
-/// function, with the weights of `noise_alternatives`. Under one function, ratios between the
-/// weights of points, their effective variances and the spread of the impacts stay those of its
-/// fit.
+/// and a draw of the scale is (sum r^2 / chi2_n)^(1/2). If the fit chose its variance function, the
+/// posterior is the mixture over the functions with the weights of `noise_alternatives`. Under one
+/// function, the relative weights of points, their effective variances and the spread of the
+/// impacts are those of its fit.
 struct PosteriorResult {
   std::optional<NoPosterior> missing;
-  int steps = 0;                                   ///< of every chain, of which `length` are kept
-  std::size_t chains = 0;                          ///< independent of one another
-  std::size_t length = 0;                          ///< draws kept of every chain
-  double acceptance = 0.0;                         ///< share of the proposals
-  std::vector<PosteriorMarginal> parameters;       ///< [slots]
-  std::vector<PosteriorMarginal> capture;          ///< in the order of the estimates
-  std::vector<std::vector<double>> draws;          ///< [chain by chain][slots]
-  std::vector<std::vector<double>> capture_draws;  ///< [draws][capture], NaN: none
-  std::vector<double> scale;                       ///< [draws] of the noise; empty: known
+  int steps = 0;                              ///< steps of every chain, of which `length` are kept
+  std::size_t chains = 0;                     ///< number of independent chains
+  std::size_t length = 0;                     ///< draws kept per chain
+  double acceptance = 0.0;                    ///< accepted share of the proposals [1]
+  std::vector<PosteriorMarginal> parameters;  ///< [slots]
+  std::vector<PosteriorMarginal> capture;     ///< in the order of the estimates
+  std::vector<std::vector<double>> draws;     ///< [chain by chain][slots]
+  std::vector<std::vector<double>> capture_draws;  ///< V* [m/s] [draws][capture], NaN: none
+  std::vector<double> scale;                       ///< scale of the noise [draws]; empty: known
   std::vector<double> log_likelihood;              ///< [draws]
-  std::vector<double> log_prior;  ///< [draws]; -ln scale for a scale, as its prior has no norm
+  /// [draws]; contains -ln scale, as the prior of the scale is not normalised.
+  std::vector<double> log_prior;
   std::vector<std::vector<double>> pointwise;  ///< ln likelihood [points][draws]; empty: missing
   LeaveOneOut left_out;
 
   bool available() const { return !missing; }
 };
 
-/// Chains from places around the estimate. Half of the proposals are drawn from a Student's t
-/// whatever the present place, half lie around it as a random walk; both have the covariance of
-/// Gauss and Newton at first, and from round to round that of the draws so far. Within a round,
-/// which alone is kept, proposals stay as they are. Rounds double until every quantity has settled.
+/// Samples the posterior by Metropolis-Hastings chains that start around the estimate. Half of the
+/// proposals are independent draws from Student's t, half are random-walk steps. Both use the
+/// Gauss-Newton covariance at first, and then that of the draws of the round before. Proposals do
+/// not change within a round, and only the last round is kept. The length of the rounds doubles
+/// until every quantity has converged.
 /// @param alternatives of `noise_alternatives`; the first is the fit
 PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternatives,
                                  const std::vector<CaptureEstimate>& capture,

@@ -18,9 +18,10 @@ namespace {
 
 constexpr int most_strides = 60;
 constexpr int most_bisections = 60;
-constexpr int curve_steps = 14;         // on either side of the estimate
-constexpr double curve_reach = 1.4;     // of the way from the estimate to the interval's end
-constexpr double end_tolerance = 1e-3;  // of the rise at an interval's end
+constexpr int curve_steps = 14;  // on either side of the estimate
+// Reach of a curve, over the distance from the estimate to the end.
+constexpr double curve_reach = 1.4;
+constexpr double end_tolerance = 1e-3;  // relative tolerance of the rise at an interval's end
 
 class Profile {
  public:
@@ -31,8 +32,9 @@ class Profile {
     least_ = fitted.objective + event_spread_offset(fitted.data);
   }
 
-  /// chi2 minimised over the others (and the spread of the impacts) with the slot at `value`, above
-  /// the minimum; `others` is both the start and the end of the refit. Nothing when it fails.
+  /// The increase of chi2 over its minimum with the slot at `value`, minimised over the other
+  /// parameters and the spread of the impacts. `others` is the start of the refit and receives its
+  /// end. Nullopt if it fails.
   std::optional<double> rise(double value, std::vector<double>& others) {
     others[slot_] = value;
     double before = INFINITY;
@@ -50,17 +52,19 @@ class Profile {
 
  private:
   static constexpr int most_rounds = 12;
-  static constexpr double at_rest = 5e-3;  // of the rise: a thousandth of the interval's width
+  // Tolerance of the rise: a thousandth of the interval's width.
+  static constexpr double at_rest = 5e-3;
 
   const FitResult& fitted_;
-  Observations data_;  ///< with the spread that belongs to the last refit
+  Observations data_;  ///< with the spread of the last refit
   LeastSquaresProblem problem_;
   std::size_t slot_;
   const LeastSquaresOptions options_ = refit_options();
   double least_ = 0.0;
 };
 
-/// How far the profile may rise at a value of the slot: less near a bound, see `profile_quantile`.
+/// The allowed rise of the profile at a value of the slot: smaller near a bound, see
+/// `profile_quantile`.
 class Allowance {
  public:
   Allowance(const ParameterSlot& slot, double level, int dof, double scale, double error)
@@ -80,8 +84,8 @@ class Allowance {
   double error_;
 };
 
-/// The standard error that the slot would have if it were not held by its bound: from J'J over it
-/// and the other parameters that move. 0 when that is singular.
+/// The standard error of the slot without its bound: from J'J of the slot and the other moving
+/// parameters. 0 if J'J is singular.
 double free_standard_error(const FitResult& fitted, std::size_t slot) {
   if (fitted.std_error[slot] > 0.0) return fitted.std_error[slot];
   const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data);
@@ -101,7 +105,7 @@ double free_standard_error(const FitResult& fitted, std::size_t slot) {
           jacobian[i * p + moving[k]];
     }
   }
-  // What the slot's column has beyond the others is 1 / error.
+  // The norm of the slot's column, orthogonal to the other columns, is 1 / error.
   const Eigen::VectorXd own = columns.col(0);
   const Eigen::MatrixXd others = columns.rightCols(columns.cols() - 1);
   Eigen::VectorXd beyond = own;
@@ -111,17 +115,17 @@ double free_standard_error(const FitResult& fitted, std::size_t slot) {
   return information > singular * own.norm() ? fitted.noise_scale / information : 0.0;
 }
 
-/// How an interval of one slot grows by the errors of constants that the fit holds: an end at the
-/// distance d from the estimate, z standard errors away in the profile, goes to
-/// sqrt(d^2 + (z s)^2), where z s is how far the estimate goes on that side when the constants are
-/// stated z of their standard deviations off, one at a time, in quadrature. s is found by refits at
-/// `most_z`, where intervals end; in between it is taken as constant.
+/// Widens an interval of one slot by the errors of constants that the fit holds. An end at the
+/// distance d from the estimate, z standard errors in the profile, moves to sqrt(d^2 + (z s)^2).
+/// Here z s is the shift of the estimate on that side when the constants change by z of their
+/// standard deviations, one at a time, added in quadrature. s comes from refits at `most_z`, where
+/// intervals end, and is taken as constant.
 class ConstantErrors {
  public:
   ConstantErrors(const FitResult& fitted, std::size_t slot)
       : slot_(fitted.model.slots[slot]), estimate_(fitted.theta[slot]) {
     for (std::size_t k = 0; k < fitted.constant_effects.size(); ++k) {
-      // One that brings less than a hundredth of the variance is left to the first order.
+      // A constant that adds less than 1 % of the variance is treated to first order.
       const double linear = fitted.constant_effects[k][slot];
       if (std::abs(linear) < 0.1 * fitted.std_error[slot]) {
         add(linear);
@@ -136,9 +140,9 @@ class ConstantErrors {
     for (double& error : error_) error = std::sqrt(error);
   }
 
-  /// The value farther out that `value`, `z` standard errors away, becomes; within the bounds.
+  /// The widened end for `value`, which is `z` standard errors away; within the bounds.
   double widened(double value, double z) const { return moved(value, z, 1.0); }
-  /// The value that `widened` takes to this one; the estimate where there is none.
+  /// The inverse of `widened`; the estimate if there is none.
   double narrowed(double value, double z) const { return moved(value, z, -1.0); }
   /// The constants' part of the standard error over the distance from the estimate.
   double ratio(double value) const {
@@ -165,8 +169,8 @@ Allowance allowance(const FitResult& fitted, std::size_t slot, double level, dou
           fitted.noise_scale * fitted.noise_scale, error};
 }
 
-/// One end of the interval, walking from the estimate in `direction` until the rise exceeds what is
-/// allowed, then closing in by regula falsi (Illinois). Nothing when a refit fails.
+/// One end of the interval: steps from the estimate in `direction` until the rise exceeds the
+/// allowed one, then regula falsi (Illinois). Nullopt if a refit fails.
 struct End {
   double value;
   bool at_bound;
@@ -179,8 +183,9 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
   double inside = fitted.theta[slot];
   double outside = inside;
   if (inside == bound) return End{bound, true};
-  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once; by hand,
-  // since every value is a fit that may fail, and the end is known by the rise, not by its place.
+  // sqrt(rise) is nearly linear in the parameter, so regula falsi converges quickly. It is written
+  // here because every evaluation is a fit that may fail, and convergence is judged by the rise,
+  // not by the position.
   const auto excess = [&](double rise, double value) {
     return std::sqrt(std::max(rise, 0.0)) - std::sqrt(allowed(value));
   };

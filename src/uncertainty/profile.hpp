@@ -9,27 +9,27 @@ namespace recoil {
 
 /// Profile-likelihood interval of one slot: all values theta_j for which
 ///   chi2(theta_j, others refitted) - chi2_min <= q s^2,
-/// q the `level` quantile of chi-squared with one degree of freedom, s the fit's noise_scale; where
-/// the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates & Watts 1988,
-/// Nonlinear Regression Analysis and its Applications, section 6.1.2). Within two standard errors
-/// of the parameter's bound q is smaller, see `profile_quantile`. That treats the other parameters
-/// as if they were away from their bounds. The spread of the impacts (event_spread), where points
-/// have both rebounds and captures, is one of the others; other estimated weights stay as they are.
+/// where q is the `level` quantile of chi-squared with one degree of freedom and s the fit's
+/// noise_scale; if the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates
+/// & Watts 1988, Nonlinear Regression Analysis and its Applications, section 6.1.2). Within two
+/// standard errors of the parameter's bound q is smaller, see `profile_quantile`. This assumes that
+/// the other parameters are away from their bounds. The spread of the impacts (event_spread), if it
+/// is estimated, is refitted with the others; other estimated weights are kept.
 ///
-/// Constants of the materials that the fit holds are held here, too; their errors then widen the
-/// interval in quadrature, by refits with the constants moved.
+/// Material constants that the fit holds are held here, too; their errors then widen the interval
+/// in quadrature, from refits with shifted constants.
 ///
-/// An end that reaches the parameter's bound stays there: shape `one_sided` for one such end,
+/// An end that reaches the parameter's bound is that bound: shape `one_sided` for one such end,
 /// `flat` for both, `bounded` for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);
 
-/// The level at which the profile interval just reaches `value`; NaN when the refit there fails.
+/// The level at which the profile interval ends at `value`; NaN if the refit there fails.
 /// @pre the slot is free
 double profile_level(const FitResult& fitted, std::size_t slot, double value);
 
-/// The profile of one slot from below `interval` to above it, or to the parameter's bounds: 29
-/// points where there is room, ascending, the estimate among them. A side on which a refit fails
-/// ends there; empty without an interval. @pre the slot is free
+/// The profile of one slot from below `interval` to above it, or to the parameter's bounds: up to
+/// 29 points including the estimate, in ascending order. A side ends where a refit fails; empty
+/// without an interval. @pre the slot is free
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
                                         const Interval& interval);
 

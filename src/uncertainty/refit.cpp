@@ -20,7 +20,7 @@ LeastSquaresOptions refit_options() {
 ReweightingOptions refit_reweighting_options() {
   ReweightingOptions options;
   options.minimiser = refit_options();
-  options.minimiser.close_enough = 0.3;  // the next round goes on from there
+  options.minimiser.close_enough = 0.3;  // the next round continues from there
   options.parameters = 0.02;
   options.scale = 0.01;
   options.replicate = true;

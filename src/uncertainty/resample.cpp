@@ -18,8 +18,9 @@ namespace recoil {
 
 namespace {
 
-/// r_i / (1 - h_i)^power of every point; captured ones get 0. Where impacts differ the residual of
-/// the fit is that of the count, too, which is drawn anew: the survivors' mean has its own.
+/// r_i / (1 - h_i)^power of every point; 0 for captured ones. With scatter from impact to impact,
+/// the residual of the fit also contains the count, which is redrawn; so this takes the residual of
+/// the survivors' mean alone.
 std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
   std::vector<double> scaled(fitted.data.points.size(), 0.0);
   for (std::size_t i = 0; i < scaled.size(); ++i) {
@@ -31,7 +32,7 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
       continue;
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
-    // With what its setting shares in it.
+    // The residual before whitening includes the error that its setting shares.
     const double residual = fitted.data.shares_errors()
                                 ? weighted_residual(point, fitted.prediction_squared[i]).value
                                 : fitted.residuals[i];
@@ -40,7 +41,7 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
   return scaled;
 }
 
-/// The scaled residuals of the points that rebounded, less their mean.
+/// The scaled residuals of the points that rebounded, minus their mean.
 std::vector<double> residual_pool(const FitResult& fitted) {
   const std::vector<double> scaled = scaled_residuals(fitted, 0.5);
   std::vector<double> pool;
@@ -53,7 +54,7 @@ std::vector<double> residual_pool(const FitResult& fitted) {
   return pool;
 }
 
-/// The points that may depend on each other: those of one series, or of one setting.
+/// The groups of points that may depend on each other: one per series, or one per setting.
 std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
@@ -68,8 +69,8 @@ std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
   return clusters;
 }
 
-/// Moves point i of the sample to its predicted value and `noise` standard deviations beyond; where
-/// its impacts differ, other ones are captured.
+/// Sets point i of the sample to its predicted value plus `noise` standard deviations; with scatter
+/// from impact to impact, its captures are redrawn.
 void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStream& random,
              Observations& sample) {
   Observation& point = sample.points[i];
@@ -157,8 +158,8 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
 
 void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
                          RandomStream& random, Observations& sample) {
-  // A replicate with other constants is to be fitted to what was measured, which follows the true
-  // ones, not to the curve of the stated ones.
+  // If constants are redrawn, the simulated noise is added to the measured values, which follow the
+  // true constants, not to the curve of the stated ones.
   const ImpactModel& model = plan.fitted->model;
   const bool other_constants = !model.constants.empty() && !model.adjusts_constants();
   sample.points = plan.fitted->data.points;
@@ -187,7 +188,7 @@ void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observa
 
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points = plan.fitted->data.points;
-  std::map<std::size_t, double> sign_of;  // of each setting, where its points share an error
+  std::map<std::size_t, double> sign_of;  // sign of each setting, if its points share an error
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     const std::size_t unit = plan.fitted->data.shares_settings() ? sample.points[i].setting : i;
     const auto [sign, is_new] = sign_of.try_emplace(unit, 1.0);
@@ -206,12 +207,14 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points.clear();
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;     // (draw, setting)
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> launches;  // (draw, launch)
+  // New number of each (draw, setting).
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;
+  // New number of each (draw, launch).
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> launches;
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
       Observation& point = sample.points.emplace_back(plan.fitted->data.points[i]);
-      // A setting that is drawn twice is two settings.
+      // A setting that is drawn twice becomes two settings.
       point.setting = again.try_emplace({k, point.setting}, again.size()).first->second;
       if (point.launch == Observation::no_launch) continue;
       point.launch = launches.try_emplace({k, point.launch}, launches.size()).first->second;
@@ -287,13 +290,13 @@ std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
 
 namespace {
 
-/// Do the points scatter unequally in a way that the covariance does not know of?
+/// Does the scheme allow unequal scatter that the covariance does not include?
 bool uses_sandwich(Scheme scheme) {
   return scheme == Scheme::wild || scheme == Scheme::cases || scheme == Scheme::cluster;
 }
 
-/// That of the points from their residuals, that of the constants from their errors, which are
-/// known.
+/// The sandwich covariance: the part of the points from their residuals, the part of the constants
+/// from their known errors.
 std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observations& data) {
   const std::vector<double> C = scaled_covariance(data, run.covariance, 1.0);
   const std::size_t p = run.theta.size();
@@ -320,7 +323,7 @@ std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observation
 std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
                                          const FitResult& fitted, const ResamplingPlan& plan) {
   if (run.covariance.empty()) return {};
-  // Where the noise is estimated, it was so again with the parameters of this run.
+  // If the noise is estimated, this run has estimated it again.
   const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
   std::vector<double> covariance = uses_sandwich(plan.scheme)
                                        ? sandwich_of(run, data)

@@ -14,11 +14,11 @@
 namespace recoil {
 namespace {
 
-// The two-point iteration costs several refits, and only its spread is wanted, which this many give
-// to 2 %.
+// The two-point iteration costs several refits, and only its spread is needed, which this number
+// determines to 2 %.
 constexpr int most_replicates = 999;
 
-/// Points of `data` that belong to `dataset`, split by whether their diameter is `diameter`.
+/// The points of one dataset, split into those with the calibrated diameter (seen) and the others.
 struct Split {
   std::vector<std::size_t> all, seen, unseen;
 };
@@ -42,8 +42,8 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-/// `fitted` repeated with the points of one diameter. Parameters of other datasets stay out of
-/// this: only what this diameter can tell is refitted.
+/// Repeats the fit with the points of one diameter; only the base parameters of this dataset are
+/// free.
 FitResult fit_of_diameter(const FitResult& fitted, std::size_t dataset, const Split& split) {
   ImpactModel alone = fitted.model;
   for (std::size_t j = 0; j < alone.slots.size(); ++j) {
@@ -54,14 +54,14 @@ FitResult fit_of_diameter(const FitResult& fitted, std::size_t dataset, const Sp
   return fit(alone, fitted.data.subset(split.seen));
 }
 
-/// Is the adhesion of every dataset fitted (`free`), or of none?
+/// Is the adhesion of every dataset free (or fixed, if not `free`)?
 bool adhesion_is(const ImpactModel& model, bool free) {
   return std::all_of(model.slot_adhesion.begin(), model.slot_adhesion.end(),
                      [&](std::size_t slot) { return model.slots[slot].free == free; });
 }
 
-/// The fit repeated with the adhesion of every dataset fitted, or of none: as the fit file fixes
-/// it, else as the materials give it.
+/// Repeats the fit with the adhesion of every dataset free or fixed. A fixed one has the value of
+/// the fit file, or that of the materials if the fit file frees it.
 FitResult with_adhesion(const FitResult& fitted, bool free) {
   ImpactModel model = fitted.model;
   for (std::size_t d = 0; d < model.contacts.size(); ++d) {
@@ -172,7 +172,7 @@ void bootstrap_two_points(const FitResult& fitted, const UncertaintyOptions& opt
   result.two_point_failed.assign(datasets, 0);
   if (datasets == 0) return;
   const ResamplingPlan plan = plan_resampling(fitted, result.scheme);
-  // [replicates][datasets]; empty: no answer
+  // theta [replicates][datasets]; empty: not converged
   std::vector<std::vector<std::vector<double>>> found(count);
   tbb::enumerable_thread_specific<Observations> samples;
   Progress progress("two points", count);

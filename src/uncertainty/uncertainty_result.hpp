@@ -17,7 +17,7 @@
 
 namespace recoil {
 
-/// All that is known about the errors of a fit.
+/// The uncertainty of a fit.
 struct UncertaintyResult {
   UncertaintyOptions options;
   std::vector<IntervalSet> intervals;  ///< [slots]
@@ -26,11 +26,11 @@ struct UncertaintyResult {
   std::vector<RestitutionCurve> curves;
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, empty without adhesion
   Identifiability identifiability;
-  std::optional<PosteriorResult> posterior;   ///< where it was asked for
+  std::optional<PosteriorResult> posterior;   ///< if requested
   std::vector<ErrorBudget> budgets;           ///< [slots]
   std::vector<ErrorBudget> capture_budgets;   ///< in the order of `capture`
-  std::optional<OddPoint> odd_point;          ///< without which the others fit
-  std::optional<ConditionalFit> conditional;  ///< where constants are uncertain
+  std::optional<OddPoint> odd_point;          ///< a point without which the model fits the others
+  std::optional<ConditionalFit> conditional;  ///< with exact constants; nullopt if all are exact
 };
 
 }  // namespace recoil

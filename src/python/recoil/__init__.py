@@ -7,7 +7,7 @@ parameters are and what the model gets wrong.
     result.parameters.C_H.value, result.parameters.C_H.intervals.bca
     result.plot()
 
-The functions do what the commands of ``recoil`` do. Results have the keys and the digits of the
+The functions correspond to the commands of ``recoil``. Results have the keys and the numbers of the
 JSON files. ``recoil help python`` prints the page of the manual.
 """
 
@@ -74,7 +74,7 @@ def _toml(value: Any) -> str:
 
 
 def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) -> _recoil.Inputs:
-    """A fit file, or a fit made from datasets and tables."""
+    """Reads a fit file, or makes a fit from datasets and tables."""
     given = {key: table for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
@@ -120,7 +120,7 @@ def load_dataset(folder: PathLike) -> Dataset:
 
 
 def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
-    """``source``, or the dataset that a frame or arrays make together with ``given``."""
+    """``source``, or a dataset made of a frame or arrays and the other arguments in ``stated``."""
     given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
     if hasattr(source, "to_csv"):
         frame: Any = source
@@ -184,27 +184,29 @@ def fit(
     threads: int = 0,
     solver: str = "fast",
 ) -> FitResult:
-    """Fits all points, with intervals and the two-point comparison: ``recoil fit``.
+    """Fits all points, with intervals and the two-point comparison, like ``recoil fit``.
 
     ``fit(V, e, d=4.9, particle="polystyrene", surface="silicon")`` fits arrays: incident velocity
     [m/s], restitution [1], diameter [um], with the other arguments of ``Dataset.from_arrays``.
     ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv;
-    ``d`` is then the diameter of all rows, and ``units`` as of ``Dataset.from_pandas``.
+    ``d`` is then the diameter of all rows, and ``units`` is that of ``Dataset.from_pandas``.
     ``provenance`` is ``"measured"`` unless given.
 
-    Otherwise ``source`` is a fit file, or a dataset, its folder or a list of these, with the tables
-    of a fit file as dictionaries: ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``,
-    ``model={"adhesion": "jkr"}``, ``noise``, ``uncertainty``, ``diagnosis``, and its ``name``.
-    ``recoil help fit-file`` lists their keys.
-    ``replicates``: number of bootstrap replicates, 0 for none, ``"auto"`` until the intervals are
-    precise enough; ``scheme`` and ``seed`` replace those of the fit file; ``threads`` (0: all
-    cores; no digit depends on it); ``solver`` (``"fast"`` or ``"reference"``).
+    Otherwise ``source`` is a fit file, or a dataset, its folder or a list of these. With datasets,
+    the tables of a fit file are dictionaries:
+    ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``, ``model={"adhesion": "jkr"}``,
+    ``noise``, ``uncertainty``, ``diagnosis``; ``name`` is the name of the fit.
+    ``recoil help fit-file`` lists the keys.
 
-    The result has the digits of the command with the same options. Other Python threads can run
-    meanwhile.
+    ``replicates``: number of bootstrap replicates; 0: none; ``"auto"``: until the intervals are
+    precise enough. ``scheme`` and ``seed`` replace those of the fit file. ``threads``: 0: all
+    cores; the numbers do not depend on it. ``solver``: ``"fast"`` or ``"reference"``.
 
-    Raises ``InputError`` for a mistake in a file or an option, ``ComputationError`` when there is
-    no usable answer.
+    The numbers equal those of the command with the same options. Other Python threads can run
+    during the fit.
+
+    Raises ``InputError`` for a mistake in a file or an option, ``ComputationError`` if there is no
+    usable result.
     """
     tables = {
         "parameters": parameters,
@@ -227,12 +229,12 @@ def model(
     parameters: Optional[Table] = None,
     model: Optional[Table] = None,  # noqa: A002
 ) -> Model:
-    """The model of a fit without fitting it, to be simulated: ``recoil simulate``.
+    """Returns the model of a fit for simulation, without fitting it, like ``recoil simulate``.
 
-    ``source``, ``parameters``, ``model`` as of ``fit``. The values are the initial ones, or those
-    of the fit.json ``fitted``.
+    ``source``, ``parameters`` and ``model`` are those of ``fit``. The values are the initial ones,
+    or those of the fit.json ``fitted``.
 
-    Raises ``InputError``, also when ``fitted`` is of another fit or another format.
+    Raises ``InputError``, also if ``fitted`` belongs to another fit or has another format.
     """
     inputs = _inputs(source, {"parameters": parameters, "model": model}, "fit")
     return Model(_recoil.model_of_fit(inputs, "" if fitted is None else os.fspath(fitted)))
@@ -250,8 +252,10 @@ def coverage(
     seed: Optional[int] = None,
     threads: int = 0,
 ) -> Facts:
-    """Measures how often the intervals contain a known truth in ``datasets`` simulated data sets.
-    Returns the JSON of ``recoil coverage --json``."""
+    """Measures how often the intervals contain the known truth in ``datasets`` simulated data sets.
+
+    Returns the JSON of ``recoil coverage --json``. Raises ``InputError`` and ``ComputationError``
+    as ``fit`` does."""
     tables = {"parameters": parameters, "model": model, "uncertainty": uncertainty}
     within("datasets", datasets, 1, 1000000, whole=True)
     inputs = _inputs(source, tables, "fit")
@@ -260,9 +264,9 @@ def coverage(
 
 
 def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
-    """Compares fits of the same data (results or files): ``recoil compare``.
+    """Compares fits of the same data (results or fit.json files), like ``recoil compare``.
 
-    Raises ``InputError`` when they are not of the same data, or a file is no fit.json.
+    Raises ``InputError`` if the data differ, or if a file is not a fit.json.
     """
     named = []
     for number, one in enumerate(fits, 1):
@@ -300,18 +304,18 @@ def pair(
     size_edges: Sequence[float] = (),
     mean_diameter: bool = False,
 ) -> Pairing:
-    """Finds impacts in the passages that a phase Doppler instrument records, and averages them into
-    points: ``recoil pair``, with its options, units and defaults.
+    """Finds impacts in the passages of a phase Doppler instrument and averages them into points.
 
-    ``passages``: a CSV file, one row per passage: ``time``, ``velocity``, ``diameter``, optional
-    ``tangential_velocity`` and ``series``. ``units={"time": "s", "velocity": "m/s"}`` where no
-    datapackage.json beside the file states them; ``columns={"velocity": "LDA1"}`` for other names;
-    ``positive``: ``"towards"`` the surface or ``"away"``; ``height`` of the plane [mm];
-    ``threshold`` [m/s]; ``angle`` [degrees]; ``size_edges`` [um]. ``recoil help pair`` explains
-    them.
+    The options, units and defaults are those of ``recoil pair``; ``recoil help pair`` explains
+    them. ``passages``: a CSV file with one row per passage and the columns ``time``, ``velocity``,
+    ``diameter`` and optionally ``tangential_velocity`` and ``series``.
+    ``units={"time": "s", "velocity": "m/s"}``: needed if no datapackage.json next to the file
+    states them. ``columns={"velocity": "LDA1"}``: other column names. ``positive``: ``"towards"``
+    the surface or ``"away"`` from it. ``height``: of the measuring plane [mm]. ``threshold`` [m/s];
+    ``angle`` [degrees]; ``size_edges`` [um].
 
-    Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` when no
-    impact is found.
+    Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
+    is found.
     """
     one_of("positive", positive, ("towards", "away"))
     within("height", height, 1e-3, 1e3)
@@ -343,7 +347,7 @@ def pair(
 
 def schema(name: str) -> dict[str, Any]:
     """The JSON Schema of a result: ``fit``, ``diagnosis``, ``predict``, ``simulate``,
-    ``coverage``, ``compare`` or ``pair``."""
+    ``coverage``, ``compare`` or ``pair``. Raises ``InputError`` for another name."""
     folder = resources.files(__name__) / "schemas"
     file = folder / f"{name}.schema.json"
     if not file.is_file():

@@ -37,12 +37,12 @@ _COUNTS = ("events", "captured")
 
 
 def _material(body: str, stated: Any) -> Any:
-    """The entry of the table of materials with this name."""
+    """``stated``, or if it is a name, the material of that name in the table of materials."""
     return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else stated
 
 
 def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
-    """The object ``recoil`` of datapackage.json: the given values, and the others from ``like``."""
+    """The object ``recoil`` of datapackage.json: the given values, then those of ``like``."""
     own: dict[str, Any] = {} if like is None else dict(like._package["recoil"])
     for key, value in given.items():
         if value is not None:
@@ -65,15 +65,15 @@ def _series_of(diameters: Any, unit: str) -> list[str]:
     few = len(set(diameters)) <= 12
     try:
         return [f"{float(d):g} {unit}" if few else "points" for d in diameters]
-    except (TypeError, ValueError):  # the reader of the points says what is wrong
+    except (TypeError, ValueError):  # the reader of the points reports the error
         return ["points"] * len(diameters)
 
 
 def _numbers(
     name: str, values: Any, points: Optional[int], *, empty: bool = False, whole: bool = False
 ) -> list[str]:
-    """One cell per point. ``points``: number of points, None: any; ``empty``: NaN is a missing
-    value; ``whole``: whole numbers."""
+    """The CSV cells of one column. ``points``: number of points, None: any; ``empty``: NaN is a
+    missing value; ``whole``: whole numbers."""
     import numpy as np
 
     try:
@@ -142,16 +142,16 @@ class Dataset:
         ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
         ``captured``, ``setting``, ``setting_velocity_sd`` and the conditions. Missing values are
         empty cells.
-        Without ``series`` the points of each diameter are one.
+        Without ``series``, the points of each diameter form a series.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
-        "density": 1050, "youngs_modulus": 2.56e9, "poisson_ratio": 0.35}`` [kg/m3, Pa, 1];
-        ``provenance``: ``"measured"``, ``"digitised"``,
-        ``"reconstruction"`` or ``"synthetic"``. What is not given is that of ``like``.
+        "density": 1050, "youngs_modulus": 2.56e9, "poisson_ratio": 0.35}`` [kg/m3, Pa, 1].
+        ``provenance``: ``"measured"``, ``"digitised"``, ``"reconstruction"`` or ``"synthetic"``.
+        ``like``: a dataset that provides the values that are not given.
         ``more``: other keys of ``recoil`` in datapackage.json, such as ``stiffness_K``,
         ``method`` or ``conditions``.
 
-        Raises ``InputError`` that names the column and the row, counted from 0.
+        Raises ``InputError``, which names the column and the row, counted from 0.
         """
         own = _stated(like, particle=particle, surface=surface, provenance=provenance, **more)
         said = dict(_UNITS)
@@ -185,13 +185,13 @@ class Dataset:
     ) -> "Dataset":
         """Makes a dataset from arrays.
 
-        ``V``: incident velocity [m/s]; ``e``: restitution [1], NaN where every sphere stays;
-        ``d``: diameter [um]; ``e_sd``, ``V_sd``: their standard deviations; ``events`` and
-        ``captured``: impacts, and how many of them stay. A number counts for all points.
-        ``series``: names; unless given, the points of each diameter are a series.
-        ``particle``, ``surface``, ``provenance``, ``more``: as of ``from_pandas``.
+        ``V``: incident velocity [m/s]; ``e``: restitution [1], NaN if every sphere is captured;
+        ``d``: diameter [um]; ``e_sd``, ``V_sd``: standard deviations of ``e`` and ``V``;
+        ``events``, ``captured``: number of impacts, and of captured ones. A single number applies
+        to all points. ``series``: names; unless given, the points of each diameter form a series.
+        ``particle``, ``surface``, ``provenance``, ``more``: see ``from_pandas``.
 
-        Raises ``InputError`` that names the argument and its entry.
+        Raises ``InputError``, which names the argument and its entry.
         """
         velocity = _numbers("V", V, None)
         points = len(velocity)
@@ -224,7 +224,7 @@ class Dataset:
         package = {"name": name, "title": title or name, "resources": [resource], "recoil": own}
         try:
             data = _recoil.parse_dataset(json.dumps(package), points, name)
-        except InputError as error:  # names a file that is not there
+        except InputError as error:  # remove the name of a file that does not exist
             problem = error.problem
             if error.file.endswith("points.csv") and error.line > 1:
                 problem = f"entry {error.line - 2} (from 0): {problem}"
@@ -235,8 +235,8 @@ class Dataset:
         return cls._of(data, package, points)
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """The points as a frame, one row each, columns and numbers as in the file;
-        ``frame.attrs["units"]`` has the units of the columns."""
+        """The points as a frame with one row per point, columns and numbers as in the file;
+        ``frame.attrs["units"]`` contains the units of the columns. Needs pandas."""
         import pandas
 
         resource = self._package["resources"][0]
@@ -261,7 +261,7 @@ class Dataset:
     def save(self, folder: PathLike, *, replace: bool = False) -> None:
         """Writes the dataset as a folder that ``recoil check`` reads.
 
-        One that is there is kept, unless ``replace`` is true.
+        Raises ``InputError`` if its files exist, unless ``replace`` is true.
         """
         points = Path(folder) / self._package["resources"][0]["path"]
         if not replace:
@@ -271,18 +271,18 @@ class Dataset:
 
     @property
     def units(self) -> dict[str, str]:
-        """Units of the columns that have one: ``{"diameter": "um", ...}``."""
+        """Units by column, for columns with a unit: ``{"diameter": "um", ...}``."""
         fields = self._package["resources"][0]["schema"]["fields"]
         return {field["name"]: field["unit"] for field in fields if field.get("unit")}
 
     @property
     def id(self) -> str:
-        """Name of the package."""
+        """Name of the dataset in datapackage.json."""
         return self._data.id
 
     @property
     def title(self) -> str:
-        """Title to read."""
+        """Title of the dataset."""
         return self._data.title
 
     @property
@@ -292,12 +292,12 @@ class Dataset:
 
     @property
     def sha256(self) -> str:
-        """Checksum of datapackage.json and the points."""
+        """SHA-256 of datapackage.json and the points."""
         return self._data.sha256
 
     @property
     def sources(self) -> list[str]:
-        """Warnings about the data, one line each."""
+        """Sources of the data, one line each: title and address."""
         return list(self._data.sources)
 
     @property

@@ -59,14 +59,15 @@ def refuse(problem: str, suggestion: str) -> NoReturn:
 
 
 def refuse_to_replace(*files: Path) -> None:
-    """Refuses to overwrite existing files."""
+    """Raises ``InputError`` if one of the files exists."""
     for file in files:
         if file.exists():
             refuse(f"{file} is there", "name another place, or pass replace=True")
 
 
 def within(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
-    """Refuses all but a number (or whole number) from ``least`` to ``most``, or None."""
+    """Raises ``InputError`` unless ``value`` is None or a (whole) number from ``least`` to
+    ``most``."""
     if value is None:
         return
     try:
@@ -79,6 +80,6 @@ def within(name: str, value: Any, least: float, most: float, *, whole: bool = Fa
 
 
 def one_of(name: str, word: Any, known: tuple[str, ...]) -> None:
-    """Refuses an unknown word; the empty word means not given."""
+    """Raises ``InputError`` unless ``word`` is one of ``known`` or empty (not given)."""
     if word not in ("", *known):
         refuse(f"{name} is {word!r}", f"choose one of {', '.join(known)}")

@@ -10,11 +10,10 @@ if TYPE_CHECKING:
 
 
 class Facts(dict):  # type: ignore[type-arg]
-    """An object of a JSON file: a dictionary whose keys are attributes too.
+    """An object of a JSON file: a dictionary whose keys are also attributes.
 
-    ``fit.parameters.C_H.value`` is ``fit["parameters"]["C_H"]["value"]``. Keys that are no Python
-    names (``C_A[wall1990-mica]``) and those that dictionaries have as methods (``items``) are
-    reached with brackets only.
+    ``fit.parameters.C_H.value`` is ``fit["parameters"]["C_H"]["value"]``. Keys that are not Python
+    names (``C_A[wall1990-mica]``) or that are methods of dictionaries (``items``) need brackets.
     """
 
     def __getattr__(self, name: str) -> Any:

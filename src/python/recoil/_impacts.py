@@ -27,14 +27,14 @@ class Impacts:
     """e = rebound / incident velocity [1]; 0 if the sphere is captured, NaN if an impact has no
     solution."""
     restitution_squared: Array
-    """e^2 [1], continued below zero for a capture: 2 H / (m V^2), H the mechanical energy with
-    which the sphere stays. Smooth across the capture velocity, so this is what to fit."""
+    """e^2 [1], continued below zero for a capture: 2 H / (m V^2), with H the mechanical energy of
+    the captured sphere. It is smooth across the capture velocity, so use it for fits."""
     captured: npt.NDArray[np.bool_]
     """Is the sphere captured?"""
     slopes: Optional[dict[str, Array]]
-    """d e^2 / d p by the name of p, [1 / unit of p]: each parameter of the model (C_H, C_A [s/m],
-    f0 [N/m], ...), ``incident_velocity`` [s/m] and ``diameter_um`` [1/um], f0 following the
-    diameter as r^(1/3) (eq. 12). None unless requested."""
+    """d e^2 / d p [1 / unit of p] by the name of p: each parameter of the model (C_H, C_A [s/m],
+    f0 [N/m], ...), ``incident_velocity`` [s/m] and ``diameter_um`` [1/um], with f0 proportional to
+    r^(1/3) (eq. 12). None unless requested."""
 
     def gradient(self, name: str) -> Array:
         """d e / d p = (d e^2 / d p) / (2 e) [1 / unit of p] of the parameter ``name``; 0 if the
@@ -68,13 +68,13 @@ class Model:
         dataset: str = "",
         gradient: bool = False,
     ) -> Impacts:
-        """Impacts at incident velocities ``V`` [m/s] of spheres of diameter ``d`` [um].
+        """Simulates impacts at incident velocities ``V`` [m/s] of spheres of diameter ``d`` [um].
 
-        ``V`` and ``d`` are numbers or arrays that broadcast against each other. ``dataset``: the
-        id, in a fit of several (the first). With ``gradient`` the slopes come along. Other threads
-        of Python run meanwhile.
+        ``V`` and ``d`` are numbers or arrays that broadcast against each other. ``dataset``: id of
+        a dataset of the fit; the first by default. ``gradient``: also compute the slopes. Other
+        Python threads can run during the simulation.
 
-        Raises ``InputError`` when a velocity is not between 1e-7 and 1e4 m/s, or a diameter not
+        Raises ``InputError`` if a velocity is not between 1e-7 and 1e4 m/s, or a diameter not
         between 1e-3 and 1e6 um.
         """
         import numpy as np
@@ -104,10 +104,11 @@ class Model:
         )
 
     def impact(self, V: float, d: float, *, dataset: str = "") -> Facts:  # noqa: N803
-        """One impact at ``V`` [m/s] of a sphere of diameter ``d`` [um] in detail: the JSON of
-        ``recoil simulate --json``, with contact time, forces, energies and, under ``history``, the
-        forces against time.
+        """Simulates one impact at ``V`` [m/s] of a sphere of diameter ``d`` [um] in detail.
 
-        Raises ``ComputationError`` when it has no answer.
+        Returns the JSON of ``recoil simulate --json``, with contact time, forces, energies and,
+        under ``history``, the forces against time.
+
+        Raises ``ComputationError`` if the impact has no solution.
         """
         return facts_of(self._model.impact(float(V), float(d), dataset))

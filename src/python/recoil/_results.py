@@ -1,4 +1,4 @@
-"""Results: the contents of the JSON files as attributes, and methods for further work."""
+"""Results: the contents of the JSON files as attributes, and methods."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class _Result:
 
     @property
     def facts(self) -> Facts:
-        """The whole JSON."""
+        """All contents of the JSON."""
         found: Optional[Facts] = self.__dict__.get("_facts")
         if found is None:
             found = facts_of(self._json)
@@ -63,7 +63,7 @@ class _Result:
         return [*super().__dir__(), *self.facts]
 
     def __getstate__(self) -> dict[str, Any]:
-        # The texts: what is compiled stays in its process.
+        # Only the texts: compiled objects cannot leave their process.
         return {name: value for name, value in self.__dict__.items() if isinstance(value, str)}
 
     def __copy__(self) -> "_Result":
@@ -90,14 +90,14 @@ class _WithPictures(_Result):
         return self._pictures.titles()
 
     def svg(self, name: str) -> str:
-        """The picture of that name as SVG."""
+        """The picture ``name`` as SVG. Raises ``ValueError`` if there is none."""
         if name not in self.pictures:
             raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
         return self._pictures.svg(name)
 
 
 class _Reported(_WithPictures):
-    """A result that is compiled, with a report in words."""
+    """A result of the compiled part, with a report in words."""
 
     def __init__(self, compiled: Any) -> None:
         self._compiled = compiled
@@ -123,7 +123,7 @@ def _numbers(values: list[Optional[float]]) -> Array:
 
 
 def _column(rows: list[Facts], name: str) -> Array:
-    """One key of every row."""
+    """The values of one key in all rows."""
     return _numbers([row[name] for row in rows])
 
 
@@ -182,7 +182,7 @@ class FitResult(_Reported):
         super().__init__(analysis)
         self._fitted = Model(analysis.model())
 
-    # -- what can be done with it --
+    # -- methods --
 
     def simulate(
         self,
@@ -200,9 +200,10 @@ class FitResult(_Reported):
         return self._fitted.impact(V, d, dataset=dataset)
 
     def diagnose(self, *, seed: Optional[int] = None, threads: int = 0) -> "Diagnosis":
-        """Diagnoses what the model gets wrong and why: ``recoil diagnose``.
+        """Finds systematic errors of the model and their causes, like ``recoil diagnose``.
 
-        ``seed``: of the simulated data sets (the fit file's); ``threads``: 0, all cores.
+        ``seed``: of the simulated data sets; by default that of the fit file. ``threads``: 0: all
+        cores.
         """
         within("seed", seed, 0, 2**63 - 1, whole=True)
         within("threads", threads, 0, 4096, whole=True)
@@ -217,18 +218,20 @@ class FitResult(_Reported):
         midpoints: bool = False,
         dataset: str = "",
     ) -> "Prediction":
-        """Predicts the mean restitution of a mixture of sizes: ``recoil predict``.
+        """Predicts the mean restitution of a mixture of sizes, like ``recoil predict``.
 
-        ``sizes``: a CSV file with the columns diameter and count; ``unit`` of its diameters (what
-        the datapackage.json beside it says, else um); ``height_mm``: of the measuring plane [mm].
+        ``sizes``: a CSV file with the columns diameter and count. ``unit``: of its diameters; by
+        default that of the datapackage.json next to it, else um. ``height_mm``: height of the
+        measuring plane [mm]. ``midpoints``: use only the mid-point of every size bin.
+        ``dataset``: id of a dataset of the fit; the first by default.
         """
         within("height_mm", height_mm, 0, 1000)
         predicted = self._compiled.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
         return Prediction(predicted)
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """The parameters as a frame: value, standard error, the ends of the recommended interval,
-        unit."""
+        """The parameters as a frame: value, standard error, ends of the recommended interval and
+        unit. Needs pandas."""
         import pandas
 
         rows = {}
@@ -239,10 +242,14 @@ class FitResult(_Reported):
         return pandas.DataFrame.from_dict(rows, orient="index")
 
     def draws(self) -> dict[str, dict[str, Array]]:
-        """The draws of the posterior as ``arviz.from_dict(**result.draws())`` reads them, arrays
-        [chain, draw]: ``posterior`` (parameters and capture velocities, SI), ``sample_stats``
-        (``lp``, ln posterior; ``log_likelihood``, ``log_prior``), ``log_likelihood`` (of every
-        point, [chain, draw, point], where one point alone has it), ``observed_data``."""
+        """The draws of the posterior, in the format of ``arviz.from_dict(**result.draws())``.
+
+        The arrays [chain, draw] are ``posterior`` (parameters and capture velocities in SI units)
+        and ``sample_stats`` (``lp``, ln posterior; ``log_likelihood``; ``log_prior``).
+        ``log_likelihood`` [chain, draw, point] is that of every point; it is missing if points
+        share errors or residuals are Student's t. ``observed_data`` contains the restitution.
+
+        Raises ``InputError`` if the posterior was not sampled or has no draws."""
         import numpy
 
         if not self.facts.posterior:
@@ -271,7 +278,7 @@ class FitResult(_Reported):
         return path
 
     def save_page(self, file: PathLike) -> None:
-        """Writes the page of ``recoil report``: one HTML file with its pictures."""
+        """Writes the page of ``recoil report``: one HTML file that contains its pictures."""
         _recoil.write_whole_files([(Path(file), self._compiled.page())])
 
     def plot(
@@ -279,10 +286,10 @@ class FitResult(_Reported):
     ) -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
 
-        ``what``: ``"fit"``, e against V with the points' errors and the band of the curve, one
-        colour for each series; ``"residuals"``, weighted residuals against V; ``"profile"``, the
-        rise of chi-square along ``parameter`` (the first free one), the others refitted, and the
-        rise at which the interval ends.
+        ``what``: ``"fit"``: e against V with the errors of the points and the band of the curve,
+        one colour per series. ``"residuals"``: weighted residuals against V. ``"profile"``: the
+        rise of chi-square along ``parameter`` (the first free one by default) with the others
+        refitted, and the rise at which the interval ends.
         """
         known = ("fit", "residuals", "profile")
         if what not in known:
@@ -337,7 +344,7 @@ class FitResult(_Reported):
 
     plot_fit = plot
 
-    # -- lmfit's names --
+    # -- names of lmfit --
 
     @property
     def params(self) -> dict[str, Parameter]:
@@ -347,7 +354,7 @@ class FitResult(_Reported):
 
     @property
     def var_names(self) -> list[str]:
-        """The free parameters."""
+        """The names of the free parameters."""
         return [name for name, p in self.parameters.items() if p.free]
 
     @property
@@ -362,13 +369,13 @@ class FitResult(_Reported):
 
     @property
     def covar(self) -> Array:
-        """Covariance of ``var_names``, NaN if missing."""
+        """Covariance of ``var_names``; NaN if missing."""
         rows, names = self.facts.covariance, self.var_names
         return _numbers([rows[a][b] for a in names for b in names]).reshape(len(names), len(names))
 
     @property
     def chisqr(self) -> float:
-        """Sum of the squares of the weighted residuals."""
+        """Sum of squares of the weighted residuals."""
         return float(self.goodness.chi2)
 
     @property
@@ -383,18 +390,18 @@ class FitResult(_Reported):
 
     @property
     def ndata(self) -> int:
-        """Points."""
+        """Number of points."""
         return int(self.dataset.points)
 
     @property
     def nvarys(self) -> int:
-        """Free parameters."""
+        """Number of free parameters."""
         return len(self.var_names)
 
     @property
     def success(self) -> bool:
-        """False where the fit ended on flat ground (``solver.ended``): some parameter has no effect
-        there. A fit without a usable answer raises ``ComputationError``."""
+        """False if the fit ended where some parameter has no effect (``solver.ended`` is ``flat``).
+        A fit without a usable result raises ``ComputationError`` instead."""
         return bool(self.solver.ended != "flat")
 
     @property
@@ -431,8 +438,8 @@ class FitResult(_Reported):
 
 
 class Diagnosis(_Reported):
-    """What the model gets wrong: the names of diagnosis.json are attributes (``verdict``,
-    ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
+    """The systematic errors of a model and their causes. The keys of diagnosis.json are attributes
+    (``verdict``, ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
 
     verdict: str
     headline: str
@@ -459,7 +466,7 @@ class Diagnosis(_Reported):
 
 
 class Prediction(_WithPictures):
-    """A mixture of sizes: the names of predict.json are attributes."""
+    """The prediction for a mixture of sizes. The keys of its JSON are attributes."""
 
     def __init__(self, predicted: _recoil.Predicted) -> None:
         self._json = predicted.json
@@ -471,7 +478,7 @@ class Prediction(_WithPictures):
 
 
 class Comparison(_Result):
-    """Fits side by side: ``fits``, and ``quantities`` with what each says."""
+    """A comparison of fits: ``fits``, and ``quantities`` with the values of each fit."""
 
     def __init__(self, json_text: str, text: str) -> None:
         self._json, self._text = json_text, text
@@ -481,14 +488,14 @@ class Comparison(_Result):
 
 
 def frame_of(text: str) -> "pandas.DataFrame":
-    """The frame of a text of comma-separated values."""
+    """The text of a CSV file as a frame."""
     import pandas
 
     return pandas.read_csv(io.StringIO(text))
 
 
 class Pairing(_Result):
-    """Impacts found in passages: the names of the JSON of ``recoil pair`` are attributes."""
+    """Impacts found in passages. The keys of the JSON of ``recoil pair`` are attributes."""
 
     def __init__(self, texts: _recoil.PairTexts) -> None:
         self._points, self._impacts = texts.points, texts.impacts
@@ -496,18 +503,18 @@ class Pairing(_Result):
         self._text = texts.text
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """The points as a frame, one row each, columns as in points.csv (diameters in um,
-        velocities in m/s): ``Dataset.from_pandas`` takes it."""
+        """The points as a frame for ``Dataset.from_pandas``: one row per point, with the columns
+        of points.csv (diameters in um, velocities in m/s)."""
         return frame_of(self._points)
 
     def impacts_to_pandas(self) -> "pandas.DataFrame":
-        """Every impact and every passage without one, as ``recoil pair --impacts`` writes them."""
+        """All impacts, and all passages that belong to none, as in ``recoil pair --impacts``."""
         return frame_of(self._impacts)
 
     def save(self, file: PathLike, *, replace: bool = False) -> Path:
-        """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path.
+        """Writes the points to ``file`` (CSV), like ``recoil pair --out``, and returns its path.
 
-        A file that is there is kept, unless ``replace`` is true.
+        Raises ``InputError`` if the file exists, unless ``replace`` is true.
         """
         path = Path(file)
         if not replace:
