@@ -202,6 +202,12 @@ TEST(Readme, PlainMethodsAreThoseOfTheStudy) {
       EXPECT_EQ(manual[i][k], share_in(study[i][k])) << manual[i][0];
     }
   }
+  // The README has the wrong causes of stepwise AICc: "66 %, 101 of 154".
+  std::string wrong = manual.at(1).at(3);
+  wrong = std::regex_replace(wrong, std::regex("^.*, (\\d+) of (\\d+)$"), "$1 of the $2");
+  EXPECT_NE(tree::text_of(tree::root() / "README.md").find("named a wrong cause in " + wrong),
+            std::string::npos)
+      << wrong;
 }
 
 }  // namespace
