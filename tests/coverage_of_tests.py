@@ -7,12 +7,19 @@ outcome of a condition of the source, true or false; the instances of a template
 """
 
 import collections
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent
+
+
+def inside(path):
+    """The path from the project's folder of a file below src; empty for others."""
+    path = Path(path)
+    return path.relative_to(SOURCE).as_posix() if path.is_relative_to(SOURCE / "src") else ""
 
 
 def counted(profiles, programs):
@@ -23,21 +30,23 @@ def counted(profiles, programs):
     merged = profiles / "merged"
     subprocess.run(["llvm-profdata-14", "merge", "-o", merged, *profiles.glob("*.profraw")], check=True)
     objects = [word for program in programs[1:] for word in ("-object", program)]
-    report = subprocess.run(
-        ["llvm-cov-14", "export", "-format=lcov", f"-instr-profile={merged}", programs[0], *objects],
-        stdout=subprocess.PIPE, text=True, check=True)
-    for entry in report.stdout.splitlines():
+    export = ["llvm-cov-14", "export", f"-instr-profile={merged}", programs[0], *objects]
+    lcov = subprocess.run([*export, "-format=lcov"], stdout=subprocess.PIPE, text=True, check=True)
+    for entry in lcov.stdout.splitlines():
         kind, _, rest = entry.partition(":")
         if kind == "SF":
-            path = Path(rest)
-            inside = path.is_relative_to(SOURCE / "src")
-            name = path.relative_to(SOURCE).as_posix() if inside else ""
+            name = inside(rest)
         elif name and kind == "DA":
             number, count = rest.split(",")[:2]
             lines[name][int(number)] = int(count)
-        elif name and kind == "BRDA":
-            number, block, branch, count = rest.split(",")
-            branches[name][int(number), block, branch] += 0 if count == "-" else int(count)
+    # Only this format has the columns, which tell two conditions of a line from two instances of one.
+    tree = subprocess.run([*export, "-format=text", "-skip-functions", "-skip-expansions"],
+                          stdout=subprocess.PIPE, check=True)
+    for file in json.loads(tree.stdout)["data"][0]["files"]:
+        name = inside(file["filename"])
+        for line, column, _, _, taken, passed, *_ in file["branches"] if name else []:
+            branches[name][line, column, True] += taken
+            branches[name][line, column, False] += passed
     return lines, branches
 
 
