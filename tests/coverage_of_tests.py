@@ -3,7 +3,8 @@
 
 PROFILES is the folder of what they counted (*.profraw). Prints a table of lines and branches of src
 by folder, then, behind an empty line, the lines and conditions that nothing reached. A branch is one
-outcome of a condition of the source, true or false; the instances of a template share theirs.
+outcome of a condition of the source, true or false; the instances of a template share theirs, and
+what the compiler decides (`if constexpr`) is no condition.
 """
 
 import collections
@@ -44,7 +45,10 @@ def counted(profiles, programs):
                           stdout=subprocess.PIPE, check=True)
     for file in json.loads(tree.stdout)["data"][0]["files"]:
         name = inside(file["filename"])
+        source = (SOURCE / name).read_text().splitlines() if name else []
         for line, column, _, _, taken, passed, *_ in file["branches"] if name else []:
+            if "if constexpr" in source[line - 1]:
+                continue
             branches[name][line, column, True] += taken
             branches[name][line, column, False] += passed
     return lines, branches
