@@ -87,9 +87,9 @@ struct ExperimentPlan {
   double efficiency = 0.0;
 };
 
-/// The datasets of a planned experiment: materials and conditions, with one series and one
-/// placeholder point for each diameter. f0 keeps its reference diameter; if none is stated, it is
-/// the median of the existing points, or else of the planned diameters.
+/// The datasets of a planned experiment: materials and conditions, with one series and one point
+/// for each diameter. Its velocity and restitution are not used. f0 keeps its reference diameter;
+/// if none is stated, it is the median of the existing points, or else of the planned diameters.
 /// @param diameters [m]; empty: those of each dataset's own points
 /// @throws InputError if no diameter is known
 std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,

@@ -144,7 +144,7 @@ std::string words_of(StructureQuestion question) {
       {size, "whole diameters lie above or below the model"},
       {trend, "residuals rise or fall with velocity"},
       {curvature, "residuals bend with velocity"},
-      {capture, "the model has the wrong curvature near capture"},
+      {capture, "the slowest points lie above or below the model"},
       {runs, "neighbouring points miss on the same side"},
       {smooth, "a smooth function of velocity and size describes the residuals"}};
   return phrase_for(phrases, question).words;
