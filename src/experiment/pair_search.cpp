@@ -197,15 +197,11 @@ std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
     for (std::size_t j = i + 1; j < passages.size(); ++j) {
       const Passage& up = passages[j];
       if (up.series != down.series || up.time > latest) break;
-      if (up.velocity >= 0.0 || -up.velocity > fastest) continue;
+      if (up.velocity >= 0.0 || flight::surface_velocity(-up.velocity, highest) > fastest) continue;
       if (up.diameter > ratio * down.diameter || down.diameter > ratio * up.diameter) continue;
       const double height =
           flight::implied_height(down.velocity, -up.velocity, up.time - down.time);
       if (!(height >= lowest && height <= highest)) continue;
-      if (flight::surface_velocity(-up.velocity, height) >
-          largest_restitution * flight::surface_velocity(down.velocity, height)) {
-        continue;
-      }
       links.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), 0.0,
                        std::log(height / options.height), std::log(up.diameter / down.diameter)});
     }
@@ -222,13 +218,19 @@ std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
 std::vector<Link> agreeing(const std::vector<Link>& candidates,
                            const std::vector<Passage>& passages, const PairingModel& model) {
   const double widest = widest_agreement * model.height_sd.largest();
+  const double plane = model.height();
   std::vector<Link> kept;
   for (const Link& link : candidates) {
     if (std::abs(link.first - model.log_height) > widest) continue;
+    const Passage& down = passages[link.from];
     const Passage& up = passages[link.to];
+    if (flight::surface_velocity(-up.velocity, plane) >
+        largest_restitution * flight::surface_velocity(down.velocity, plane)) {
+      continue;
+    }
     const double height =
         (link.first - model.log_height) / model.height_sd.at(std::log(-up.velocity));
-    const double size = link.second / model.diameter_sd.at(std::log(passages[link.from].diameter));
+    const double size = link.second / model.diameter_sd.at(std::log(down.diameter));
     const double cost = height * height + size * size;
     if (std::max(std::abs(height), std::abs(size)) > widest_agreement || cost > worst_link)
       continue;
@@ -241,6 +243,7 @@ std::vector<Link> agreeing(const std::vector<Link>& candidates,
 Refined refine_height(const std::vector<Link>& candidates, const std::vector<Passage>& passages,
                       const PairingOptions& options) {
   Refined result;
+  result.model.estimate = options.height;
   result.model.diameter_sd = LocalSpread(std::min(0.05, options.diameter_tolerance / 3.0));
   if (options.refine && candidates.size() >= fewest_to_refine) {
     std::vector<double> heights;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -62,19 +63,24 @@ class LocalSpread {
 
 /// The model of a true pair: the plane's height and the scatter of both deviations.
 struct PairingModel {
-  double log_height = 0.0;        ///< ln(h / options.height)
+  double estimate = 1e-3;         ///< first estimate of the height [m]
+  double log_height = 0.0;        ///< ln(height / estimate)
   LocalSpread height_sd{0.05};    ///< of ln h, against ln of the speed up
   LocalSpread diameter_sd{0.05};  ///< of ln(d_up / d_down), against ln of the diameter
+
+  double height() const { return estimate * std::exp(log_height); }  ///< [m]
 };
 
 /// All possible pairs: a passage up follows one down within the longest round trip from the highest
-/// plane, the diameters agree within the tolerance, the implied height is in the range, and e is at
-/// most 1.5. `Link::first` is ln(h_implied / options.height), and the costs are 0.
+/// plane, the diameters agree within the tolerance, the implied height is in the range, and e at
+/// the highest plane is at most 1.5. `Link::first` is ln(h_implied / options.height), and the costs
+/// are 0.
 /// @throws ComputationError if there are more than 200 per passage
 std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
                                   const PairingOptions& options);
 
-/// The candidates that agree with `model`, with their costs.
+/// The candidates that agree with `model`, with their costs. Their e, at the height of the model,
+/// is at most 1.5.
 std::vector<Link> agreeing(const std::vector<Link>& candidates,
                            const std::vector<Passage>& passages, const PairingModel& model);
 
@@ -107,9 +113,9 @@ Followers find_returns(const std::vector<Passage>& passages, const PairingOption
 /// in `open_next` (not explained yet): with the speed v of the rebound, it follows after
 /// `round_trip(down, v, h)` + 2 v / g.
 /// @param velocity_sd relative scatter of a velocity, from the returns [1]
-Followers find_unseen(const std::vector<Passage>& passages, const PairingOptions& options,
-                      const PairingModel& model, const std::vector<bool>& open_down,
-                      const std::vector<bool>& open_next, double velocity_sd);
+Followers find_unseen(const std::vector<Passage>& passages, const PairingModel& model,
+                      const std::vector<bool>& open_down, const std::vector<bool>& open_next,
+                      double velocity_sd);
 
 /// Relative scatter of one velocity from the returns [1]; from the tolerance if there are few.
 double velocity_scatter(const Followers& returns, const PairingOptions& options);

@@ -53,7 +53,7 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages
                                             const PairingOptions& options,
                                             const PairingModel& model, double velocity_sd,
                                             double scale, std::size_t stride = 1) {
-  const double height = options.height * std::exp(model.log_height);
+  const double height = model.height();
   std::vector<Link> links;
   SeriesEnds ends(passages);
   std::size_t visits = 0;
@@ -179,10 +179,10 @@ Followers find_returns(const std::vector<Passage>& passages, const PairingOption
       .followers;
 }
 
-Followers find_unseen(const std::vector<Passage>& passages, const PairingOptions& options,
-                      const PairingModel& model, const std::vector<bool>& open_down,
-                      const std::vector<bool>& open_next, double velocity_sd) {
-  const double height = options.height * std::exp(model.log_height);
+Followers find_unseen(const std::vector<Passage>& passages, const PairingModel& model,
+                      const std::vector<bool>& open_down, const std::vector<bool>& open_next,
+                      double velocity_sd) {
+  const double height = model.height();
   const auto search = [&](double scale) -> std::optional<std::vector<Link>> {
     std::vector<Link> links;
     SeriesEnds ends(passages);

@@ -113,7 +113,7 @@ Search search_pairs(const std::vector<Passage>& passages, const PairingOptions& 
   const double reach = std::abs(model.log_height) + widest_agreement * model.height_sd.largest();
   if (search.refined.refined && reach > std::log(options.height_range)) {
     // The height is near an end of the range, which excludes pairs: search again around it.
-    search.options.height *= std::exp(model.log_height);
+    search.options.height = model.height();
     search.candidates = pair_candidates(passages, search.options);
     search.refined = refine_height(search.candidates, passages, search.options);
   }
@@ -161,7 +161,7 @@ Later find_later_impacts(const std::vector<Passage>& passages, const Search& sea
     open_next[link.to] = false;
   }
   const Followers unseen =
-      find_unseen(passages, search.options, model, open_down, open_next, result.velocity_spread);
+      find_unseen(passages, model, open_down, open_next, result.velocity_spread);
   for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
     later.chains.follow(link.to, link.from);
     later.came_back[link.from] = true;
@@ -212,7 +212,7 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
   const PairingModel& model = search.refined.model;
   result.candidates = static_cast<double>(search.candidates.size()) /
                       static_cast<double>(std::max<std::size_t>(result.down, 1));
-  result.height = search.options.height * std::exp(model.log_height);
+  result.height = model.height();
   result.height_sd = result.height * search.refined.log_height_sd;
   result.refined = search.refined.refined;
   result.height_spread = search.refined.height_spread;

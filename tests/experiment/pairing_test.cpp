@@ -59,6 +59,25 @@ TEST(Pairing, FasterThanItCameIsNoPartner) {
   EXPECT_TRUE(pair_passages(events, {}).impacts.empty());
 }
 
+/// A pair whose flight takes as long as from a plane at 1.15 mm, where its e is 1.49. At the height
+/// of 1 mm that is stated, its e is 1.53.
+TEST(Pairing, RestitutionIsLimitedAtTheHeightThatAllPairsShare) {
+  constexpr double twice_g = 2.0 * 9.80665;
+  const double down = 0.1;
+  const double at_surface = std::sqrt(down * down + twice_g * 1.15e-3);
+  const double up = std::sqrt(std::pow(1.49 * at_surface, 2) - twice_g * 1.15e-3);
+  const double time = (at_surface - down + 1.49 * at_surface - up) / 9.80665;
+  EXPECT_GT(up * up + twice_g * 1e-3, 1.5 * 1.5 * (down * down + twice_g * 1e-3));
+  const std::vector<Passage> events = {{1.0, down, 0.0, 49e-6, 0, 2},
+                                       {1.0 + time, -up, 0.0, 49e-6, 0, 3}};
+  PairingOptions stated;
+  EXPECT_TRUE(pair_passages(events, stated).impacts.empty());
+  stated.height = 1.15e-3;
+  const PairingResult there = pair_passages(events, stated);
+  ASSERT_EQ(there.impacts.size(), 1U);
+  EXPECT_NEAR(there.impacts[0].restitution, 1.49, 1e-9);
+}
+
 TEST(Pairing, AReturnIsASecondImpact) {
   std::vector<Passage> events = one_impact();
   const double back = events[1].time + 2.0 * 0.5 / 9.80665;
