@@ -209,7 +209,7 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
             fit.data.points[static_cast<std::size_t>(off - shared.begin())];
         const auto stated = point.restitution_sd;
         designed.sd = own_noise_scale(observed, designed.sd);
-        simulate_point(designed, fit.data.noise.event_spread, other_truth, fit.data.sd_stated,
+        simulate_point(designed, fit.data.noise.event_spread, other_truth, fit.data.noise.sd_stated,
                        noise, point);
         if (observed.launch != Observation::no_launch) point.restitution_sd = stated;
         const double error = *off++;

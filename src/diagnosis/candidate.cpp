@@ -332,14 +332,14 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
 }
 
 double log_deviance(const Observations& data, double chi2) {
-  if (data.sd_stated) return chi2;
+  if (data.noise.sd_stated) return chi2;
   const auto n = static_cast<double>(data.points.size());
   return n * std::log(std::max(chi2, 1e-300) / n);
 }
 
 double corrected_criterion(const Observations& data, double chi2, int free_count) {
   const auto n = static_cast<double>(data.points.size());
-  const double k = free_count + (data.sd_stated ? 0 : 1);
+  const double k = free_count + (data.noise.sd_stated ? 0 : 1);
   const double spare = n - k - 1.0;
   if (spare <= 0.0) return INFINITY;
   return log_deviance(data, chi2) + 2.0 * k + 2.0 * k * (k + 1.0) / spare;

@@ -159,7 +159,7 @@ std::vector<CaptureChange> compare_capture(const FitResult& base, const FitResul
 
 std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const SearchBase& base) {
   UncertaintyOptions options;
-  options.replicates = fitted.data.sd_stated ? 0 : 199;
+  options.replicates = fitted.data.noise.sd_stated ? 0 : 199;
   options.level = base.spec.uncertainty.level;
   options.seed = base.options.seed;
   options.threads = base.options.threads;
@@ -222,8 +222,8 @@ bool cannot_be_told(const CandidateResult& c) {
 /// a worse cause: a plausible cause explains only if it is at most `margin` worse than the
 /// implausible one. If the implausible one leaves no structure alone, a pair explains only if it is
 /// better by `lead`.
-bool outshone(const CandidateResult& best, const CandidateResult& impossible, double margin,
-              double lead) {
+bool impossible_fits_better(const CandidateResult& best, const CandidateResult& impossible,
+                            double margin, double lead) {
   const bool pair = best.candidate.added.size() > 1;
   const bool does_alone =
       impossible.set_aside == SetAside::not_possible && impossible.remaining_p >= tolerated_level;
@@ -233,8 +233,8 @@ bool outshone(const CandidateResult& best, const CandidateResult& impossible, do
 
 /// Does a pair with a parameter at its limit fit better by `lead`? Then no cause is named, as with
 /// single causes.
-bool outshone_at_the_edge(const CandidateResult& best, const std::vector<CandidateResult>& pairs,
-                          double lead) {
+bool pair_at_limit_fits_better(const CandidateResult& best,
+                               const std::vector<CandidateResult>& pairs, double lead) {
   return std::ranges::any_of(pairs, [&](const CandidateResult& c) {
     return c.set_aside == SetAside::at_the_edge && c.delta_aicc < best.delta_aicc - lead;
   });
@@ -285,7 +285,8 @@ std::vector<const CandidateResult*> explanations_by_pairs(const SearchBase& base
   diagnosis.pairs = try_pairs(base, diagnosis.candidates);
   judge(base, diagnosis.pairs, margin, folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.pairs, margin, one_size);
-  if (found.empty() || outshone_at_the_edge(*found.front(), diagnosis.pairs, margin)) return {};
+  if (found.empty() || pair_at_limit_fits_better(*found.front(), diagnosis.pairs, margin))
+    return {};
   add_close_singles(diagnosis.candidates, margin, base.options.chance, found);
   return found;
 }
@@ -308,7 +309,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   const bool has_impossible = impossible != diagnosis.candidates.end();
   const auto is_outshone = [&](const std::vector<const CandidateResult*>& found) {
     return has_impossible && !found.empty() &&
-           outshone(*found.front(), *impossible, margin, margin_in_pairs);
+           impossible_fits_better(*found.front(), *impossible, margin, margin_in_pairs);
   };
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
   if ((found.empty() || is_outshone(found)) && more_than_chance(diagnosis)) {

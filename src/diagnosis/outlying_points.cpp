@@ -141,7 +141,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
     const PredictionByOthers prediction(U, r, kept);
     std::vector<double> z;
     for (const std::size_t i : kept) z.push_back(prediction.of_one_of_them(i));
-    scale = scale_of(z, data.sd_stated);
+    scale = scale_of(z, data.noise.sd_stated);
     const auto worst = static_cast<std::size_t>(
         std::ranges::max_element(z, [](double a, double b) { return std::abs(a) < std::abs(b); }) -
         z.begin());

@@ -21,7 +21,7 @@ namespace {
 FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& datasets,
                               const FitResult& fitted) {
   const Observations& data = fitted.data;
-  if (!data.setting_sd_estimated || !(data.noise.setting_sd > 0.0)) return fitted;
+  if (!data.noise.setting_sd_estimated || !(data.noise.setting_sd > 0.0)) return fitted;
   const int free = fitted.model.free_count();
   const Eigen::MatrixXd smooth = smooth_functions(data);
   const Eigen::Index half = (count_settings(data).settings - free) / 2;
@@ -31,7 +31,7 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
     trends.emplace_back(smooth.col(k).begin(), smooth.col(k).end());
   }
   const double rough = estimated_setting_error(data, fitted.prediction_squared, free, trends);
-  NoiseSpec noise = spec.noise;
+  Noise::Spec noise = spec.noise;
   noise.setting_sd = too_few_settings(data, free) ? 0.0 : std::min(rough, data.noise.setting_sd);
   FitOptions options;
   options.several_starts = false;
@@ -68,7 +68,7 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
       with_law_errors(base.candidate, fitted.data,
                       refit_candidate(base.candidate, fitted.data, fitted.theta, 1), base.laws);
   base.criterion = corrected_criterion(fitted.data, base.refit, base.candidate.free_count);
-  if (!fitted.data.sd_stated) base.noise_scale = fitted.noise_scale;
+  if (!fitted.data.noise.sd_stated) base.noise_scale = fitted.noise_scale;
   return base;
 }
 

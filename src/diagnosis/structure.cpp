@@ -62,7 +62,7 @@ double upper_share(const std::vector<double>& sorted, double value) {
 
 StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
                                          std::span<const double> predicted)
-    : stated_(data.sd_stated),
+    : stated_(data.noise.sd_stated),
       noise_known_(data.noise.known),
       slopes_(data.points.size()),
       settings_(data.points),

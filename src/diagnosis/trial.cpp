@@ -65,7 +65,7 @@ std::vector<double> predicted_squares(const Candidate& candidate, const Refit& r
 
 /// See `CandidateResult::remaining_part`.
 double part_left(const SearchBase& base, const CandidateResult& candidate) {
-  if (!base.fitted.data.sd_stated) return 1.0;  // the size of the misfit is unknown
+  if (!base.fitted.data.noise.sd_stated) return 1.0;  // the size of the misfit is unknown
   const auto n = static_cast<double>(base.fitted.data.points.size());
   const double before = base.refit.chi2 - (n - base.candidate.free_count);
   const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
@@ -181,7 +181,7 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   }
 }
 
-void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, int tries) {
+void judge_possible_values(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !result.only_by_error) return;
   Candidate held = make_candidate(base.spec, base.datasets, result.candidate.added,
                                   result.candidate.released, true);
@@ -290,7 +290,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
   if (!can_be_seen(base, candidate) || !can_matter(base, mechanism, candidate, near)) return {};
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
-  hold_to_what_is_possible(base, result, tries_alone);
+  judge_possible_values(base, result, tries_alone);
   find_what_is_left(base, result);
   return result;
 }

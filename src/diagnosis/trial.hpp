@@ -54,7 +54,7 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries);
 
 /// Computes `cost_of_possible` if a value is allowed only within its error, and judges the
 /// parameters by it.
-void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, int tries);
+void judge_possible_values(const SearchBase& base, CandidateResult& result, int tries);
 
 /// The result of `make` for `added`, or the kept one of piece `k` of its kind.
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,

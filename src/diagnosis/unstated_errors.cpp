@@ -134,8 +134,10 @@ double remaining_p(const SearchBase& base, const Observations& data, const Refit
 }
 
 /// The fit of the base model under the errors of `datasets` and `noise`.
-FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets, NoiseSpec noise) {
-  if (base.fitted.data.shares_settings()) noise.setting_sd = base.fitted.data.noise.setting_sd;
+FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets,
+                    Noise::Spec noise) {
+  if (base.fitted.data.noise.shares_settings())
+    noise.setting_sd = base.fitted.data.noise.setting_sd;
   FitOptions options;
   options.several_starts = false;
   options.start = base.fitted.theta;
@@ -143,7 +145,7 @@ FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets
 }
 
 FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
-  NoiseSpec noise = base.spec.noise;
+  Noise::Spec noise = base.spec.noise;
   noise.velocity_errors = true;
   noise.velocity_relative_sd = relative_sd;
   return fit_under(base, base.datasets, noise);
@@ -277,7 +279,7 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   found.delta_aicc = corrected_criterion(base.fitted.data, n * std::log(chi2 / n) + n, free + 1) -
                      corrected_criterion(base.fitted.data, chi2, free);
   Observations unsized = base.fitted.data;
-  unsized.sd_stated = false;
+  unsized.noise.sd_stated = false;
   found.remaining_p = remaining_p(base, unsized, base.refit, base.fitted.prediction_squared);
   return found;
 }
@@ -323,7 +325,7 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.setting_velocity_stated) {
+  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.noise.setting_velocity_stated) {
     return std::nullopt;  // the error is stated
   }
   if (!has_settings_of_several_points(data)) return std::nullopt;
@@ -350,7 +352,7 @@ std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
   if (base.spec.noise.student) return {};
   std::vector<UnstatedErrors> all;
   if (const auto found = shared_settings(base)) all.push_back(*found);
-  if (base.fitted.data.sd_stated) {
+  if (base.fitted.data.noise.sd_stated) {
     for (const auto& found :
          {velocity_errors(base), larger_deviations(base), reading_errors(base)}) {
       if (found) all.push_back(*found);

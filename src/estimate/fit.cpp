@@ -79,7 +79,7 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   result.p_value = misfit.p_value;
   const auto verdict = [&] {
     if (misfit.dof <= 0) return NoiseVerdict::unchecked;
-    if (!result.data.sd_stated) return NoiseVerdict::estimated;
+    if (!result.data.noise.sd_stated) return NoiseVerdict::estimated;
     if (misfit.p_value < misfit_level) return NoiseVerdict::exceeded;
     return misfit.p_value < doubtful_level ? NoiseVerdict::doubtful : NoiseVerdict::explained;
   };
@@ -97,8 +97,8 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     // noise.
     result.dof -= static_cast<int>(std::lround(misfit.learned));
   }
-  NoiseModel& noise = result.data.noise;
-  noise.known = result.data.sd_stated || (result.dof > 0 && scatters);
+  Noise& noise = result.data.noise;
+  noise.known = result.data.noise.sd_stated || (result.dof > 0 && scatters);
   if (!noise.known) {
     result.noise_scale = 1.0;
     result.noise_verdict = NoiseVerdict::unchecked;
@@ -108,7 +108,7 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       result.quantile_dof = dof;
     }
   };
-  if (!result.data.sd_stated) known_by(result.dof);
+  if (!result.data.noise.sd_stated) known_by(result.dof);
   if (noise.event_spread > 0.0) {
     // Degrees of freedom of the spread of the impacts: those in the range where some spheres stick
     // count, and single impacts in proportion to the part of their variance that comes from the
@@ -125,7 +125,7 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     }
     known_by(std::max(1, static_cast<int>(impacts) - 1));
   }
-  if (result.data.setting_sd_estimated) {
+  if (result.data.noise.setting_sd_estimated) {
     known_by(spare_settings(result.data, result.model.free_count()));
   }
 }
@@ -557,7 +557,7 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
 
 std::optional<OddPoint> odd_point(const FitResult& fitted) {
   gsl_errors_are_values();
-  const bool stated = fitted.data.sd_stated;
+  const bool stated = fitted.data.noise.sd_stated;
   const std::size_t n = fitted.data.points.size();
   if (!fitted.usable || !fitted.data.noise.known || fitted.data.noise.student) return {};
   if (fitted.dof < 3 || (stated && fitted.p_value >= rejected)) return {};

@@ -24,7 +24,7 @@ std::string truth_value(bool value) { return value ? "true" : "false"; }
 
 std::vector<FitKey> all_keys() {
   const FitSpec fit;
-  const NoiseSpec noise;
+  const Noise::Spec noise;
   const UncertaintySpec uncertainty;
   return {
       {"", "dataset", "", "dataset folder, or a list of folders that are fitted together"},
@@ -131,7 +131,7 @@ constexpr double largest_setting_sd = 0.3;
 constexpr double least_separation = 5e-11;
 constexpr double largest_separation = 1e-7;
 
-void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& spec) {
+void read_variance(const TomlReader& reader, const toml::node& node, Noise::Spec& spec) {
   const std::string word = reader.string(node, "variance", "variance = \"auto\"");
   if (word == "auto") return;
   spec.variance = value_named<VarianceFunction>(word);
@@ -142,7 +142,7 @@ void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& 
               did_you_mean(word, names));
 }
 
-void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
+void read_residuals(const TomlReader& reader, const toml::table& table, Noise::Spec& spec) {
   if (const toml::node* node = table.get("residuals")) {
     const std::string word = reader.string(*node, "residuals", "residuals = \"normal\"");
     if (word != "normal" && word != "student") {
@@ -167,7 +167,7 @@ void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpe
 }
 
 /// `setting_sd`: a number, or "estimated".
-void read_setting_sd(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
+void read_setting_sd(const TomlReader& reader, const toml::table& table, Noise::Spec& spec) {
   const toml::node* const node = table.get("setting_sd");
   if (node == nullptr) return;
   if (node->is_string()) {
@@ -213,9 +213,9 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
 }
 
 /// The `[noise]` table.
-NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
+Noise::Spec read_noise_spec(const TomlReader& reader, const toml::table& table) {
   reader.allow_only(table, "[noise]", fit_keys_of("noise"));
-  NoiseSpec spec;
+  Noise::Spec spec;
   if (const toml::node* node = table.get("variance")) read_variance(reader, *node, spec);
   read_residuals(reader, table, spec);
   read_setting_sd(reader, table, spec);

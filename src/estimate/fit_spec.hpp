@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "estimate/noise.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/parameter.hpp"
 
@@ -29,47 +30,6 @@ const std::vector<FitKey>& fit_keys();
 
 /// The names of the keys of one table, in order.
 std::vector<std::string> fit_keys_of(std::string_view table);
-
-/// How the standard deviation of a measured e depends on the predicted one. All but `stated` use
-/// one number s for all points and n, the number of rebounds that a point averages:
-///   constant       sd = s / sqrt(n)
-///   proportional   sd = s sqrt(e^2 + 0.1^2) / sqrt(n): relative noise, with a floor so that no
-///                  point close to capture weighs without limit
-///   capture        sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
-///                  to it: for impacts that differ in their energy loss
-///   steep          sd = s exp(2 (V* / V)^2) / sqrt(n): sevenfold at capture, 7 % more at 5 V*, and
-///                  so over a wider range than `capture`; V* to first order in the damping
-/// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family,
-/// steep an exponential of a variable of the design (both: Carroll & Ruppert 1988, Transformation
-/// and Weighting in Regression, chapter 3).
-enum class VarianceFunction { stated, constant, proportional, capture, steep };
-
-template <>
-struct NamesOf<VarianceFunction> {
-  static constexpr std::array<std::string_view, 5> names = {"stated", "constant", "proportional",
-                                                            "capture", "steep"};
-};
-
-/// The `[noise]` table of a fit file.
-struct NoiseSpec {
-  /// Empty for "auto": the stated standard deviations if there are any, else the function that the
-  /// points select.
-  std::optional<VarianceFunction> variance;
-
-  bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
-  double student_dof = 4.0;  ///< degrees of freedom of Student's t, at least 1
-
-  /// Standard deviation of an error of e that the points of one setting share [1]; 0: none. Empty:
-  /// estimated from the points, if settings are named or `every_setting` is true.
-  std::optional<double> setting_sd;
-  bool every_setting = false;  ///< points without a named setting share one if series, diameter and
-                               ///< velocity are equal
-
-  bool velocity_errors = true;        ///< use the velocity_sd of the points
-  double velocity_relative_sd = 0.0;  ///< for points without one; 0: none
-  bool diameter_errors = true;        ///< use the diameter_sd of the points
-  double diameter_relative_sd = 0.0;  ///< for points without one; 0: none
-};
 
 /// How the bootstrap makes a new data set from the fit and the points.
 enum class Scheme {
@@ -149,7 +109,7 @@ struct FitSpec {
                             ///< spheres of a point have its diameter
   /// All of `parameters_with(mechanisms, adhesion)`, in that order.
   std::vector<ParameterSpec> parameters;
-  NoiseSpec noise;
+  Noise::Spec noise;
   Location variance_place;  ///< place of the variance function in the file, for messages
   UncertaintySpec uncertainty;
   double law_error = 0.1;  ///< `[diagnosis]`: relative, smooth error of the law of a mechanism [1]

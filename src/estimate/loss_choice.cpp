@@ -61,7 +61,7 @@ LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets
     const FitResult fitted = fit(model, data);
     if (!fitted.usable || !fitted.flat.empty()) continue;
     if (!fitted.data.noise.known) return as_stated;  // the fit passes through all points
-    const double k = model.free_count() + (data.sd_stated ? 0 : 1);
+    const double k = model.free_count() + (data.noise.sd_stated ? 0 : 1);
     // The correction for few points; it is equal for laws with equally many parameters.
     const double correction = n > k + 1.0 ? 2.0 * k * (k + 1.0) / (n - k - 1.0) : 0.0;
     choice.laws.push_back({loss, minus_two_log_likelihood(fitted) + 2.0 * k + correction});

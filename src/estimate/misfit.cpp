@@ -74,12 +74,12 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
   int informative = 0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
-    if (!data.sd_stated && point.censored) continue;
+    if (!data.noise.sd_stated && point.censored) continue;
     // A captured point that the model also captures has a residual near zero for any parameters: it
     // determines a sign, not a value, and is no degree of freedom of the noise.
     if (point.informs(predicted[i])) ++informative;
     double r = student ? student->original(residuals[i]) : residuals[i];
-    if (!data.sd_stated && point.weights.scatter > 0.0) {
+    if (!data.noise.sd_stated && point.weights.scatter > 0.0) {
       r = (point.restitution - expected_restitution(point, predicted[i])) / point.weights.mean_sd;
     }
     if (student) {
@@ -91,7 +91,7 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
   if (student) result.square /= student->mean_square;
   result.point_square = result.square;
   result.learned = constants.learned;
-  if (data.sd_stated) result.square += constants.square;
+  if (data.noise.sd_stated) result.square += constants.square;
   result.dof = informative - free_count;
   if (result.dof <= 0) return result;
   result.p_value =

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "estimate/noise.hpp"
+
 namespace recoil {
 
 /// The conditions of one impact: a sphere of a dataset before contact.
@@ -48,35 +50,6 @@ struct MeasuredPoint {
   /// Did spheres rebound with unknown e?
   bool counts_only() const { return censored && captured < events; }
   PointConditions conditions() const { return {dataset, diameter, velocity, series}; }
-};
-
-/// The predicted e^2 at which the likelihood of one point is largest, and the deviance D = -2 ln L
-/// there.
-struct DeviancePeak {
-  double at = 0.0;         ///< [1]
-  double deviance = 0.0;   ///< D(at)
-  double curvature = 0.0;  ///< D''(at), > 0
-  double third = 0.0;      ///< D'''(at)
-};
-
-/// The weights of one point. Except for a stated `sd`, each round of `reweighted_fit` recomputes
-/// them at the parameters of the round before.
-struct PointWeights {
-  double sd = 0.0;  ///< standard deviation of the mean e: stated, or estimated [1]
-  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated [1].
-  double proximity = 0.0;
-  double input_sd = 0.0;    ///< sd of e^2 that the errors of V and d cause [1]
-  double input_bias = 0.0;  ///< shift of e^2 by its curvature over these errors [1]
-  double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not used
-  double shift = 0.0;       ///< mean e^2 of the impacts minus e^2 of the mean impact [1]
-  /// sd of the mean e including the errors of V and d; used with scatter [1].
-  double mean_sd = 0.0;
-  double setting_sd = 0.0;    ///< sd of e from the stated error of V that its setting shares [1]
-  double size_sd = 0.0;       ///< d e / d d times the sd of d that its series shares [1]
-  double setting_load = 0.0;  ///< |dr / de| of the residual r times the sd of the error of e that
-                              ///< its setting shares [1]
-  double size_load = 0.0;     ///< |dr / de| size_sd [1]
-  DeviancePeak peak;          ///< used if `peaks()`
 };
 
 /// A measured point with its weights.

@@ -26,7 +26,7 @@ bool has_column(const Dataset& dataset, const std::string& name) {
 }
 
 Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint& p,
-                    const NoiseSpec& spec) {
+                    const Noise::Spec& spec) {
   Observation point;
   point.dataset = index;
   point.series = p.series;
@@ -76,8 +76,8 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
        ++k) {  // first by the index of the setting's first point
     const bool is_new = k == 0 || key(order[k]) != key(order[k - 1]);
     data.points[order[k]].setting = is_new ? order[k] : data.points[order[k - 1]].setting;
-    several =
-        several || (!is_new && (data.spec.every_setting || !stated[order[k]]->setting.empty()));
+    several = several ||
+              (!is_new && (data.noise.spec.every_setting || !stated[order[k]]->setting.empty()));
   }
   std::size_t count = 0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
@@ -210,7 +210,7 @@ std::vector<PointConditions> Observations::conditions() const {
 }
 
 bool Observations::weights_depend_on_fit() const {
-  return !sd_stated || shares_errors() ||
+  return !noise.sd_stated || noise.shares_errors() ||
          std::any_of(points.begin(), points.end(), [](const Observation& point) {
            return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
                   point.weights.scatter > 0.0 || point.captured > 0;
@@ -219,7 +219,7 @@ bool Observations::weights_depend_on_fit() const {
 
 namespace {
 
-/// `NoiseModel::rounding_sd` of the dataset with the coarsest rounding. Quotients of rounded
+/// `Noise::rounding_sd` of the dataset with the coarsest rounding. Quotients of rounded
 /// velocities have no common step.
 double rounding_sd_of(const std::vector<Dataset>& datasets) {
   double coarsest = 0.0;
@@ -239,10 +239,10 @@ double rounding_sd_of(const std::vector<Dataset>& datasets) {
 
 }  // namespace
 
-Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
+Observations gather(const std::vector<Dataset>& datasets, const Noise::Spec& spec,
                     const Location& variance_place) {
   Observations data;
-  data.spec = spec;
+  data.noise.spec = spec;
   int missing = 0;
   int stated = 0;
   data.noise.rounding_sd = rounding_sd_of(datasets);
@@ -262,18 +262,18 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   }
   const bool several = number_settings(datasets, data);
   for (const Observation& point : data.points) {
-    data.setting_velocity_stated |= point.setting_velocity_sd > 0.0;
-    data.series_diameter_stated |= point.series_diameter_sd > 0.0;
+    data.noise.setting_velocity_stated |= point.setting_velocity_sd > 0.0;
+    data.noise.series_diameter_stated |= point.series_diameter_sd > 0.0;
   }
-  if ((data.setting_velocity_stated || data.series_diameter_stated) && spec.student) {
-    throw InputError(
-        {},
-        fmt::format("residuals = \"student\" beside {}",
-                    data.setting_velocity_stated ? "setting_velocity_sd" : "series_diameter_sd"),
-        "errors that points share are normal", "leave out one of them");
+  if ((data.noise.setting_velocity_stated || data.noise.series_diameter_stated) && spec.student) {
+    throw InputError({},
+                     fmt::format("residuals = \"student\" beside {}",
+                                 data.noise.setting_velocity_stated ? "setting_velocity_sd"
+                                                                    : "series_diameter_sd"),
+                     "errors that points share are normal", "leave out one of them");
   }
-  data.setting_sd_estimated = several && !spec.setting_sd && !spec.student &&
-                              (spec.every_setting || !data.setting_velocity_stated);
+  data.noise.setting_sd_estimated = several && !spec.setting_sd && !spec.student &&
+                                    (spec.every_setting || !data.noise.setting_velocity_stated);
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
         variance_place,
@@ -282,11 +282,11 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
         "", "write \"auto\", or state them all");
   }
   // Points without a stated sd are completed, also if all points are captured and none states one.
-  data.sd_stated =
+  data.noise.sd_stated =
       spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
-  if (data.sd_stated) {
-    data.sd_missing = stated > 0 ? missing : 0;
-    if (!spec.student) data.shares_instants = number_bounces(datasets, data);
+  if (data.noise.sd_stated) {
+    data.noise.sd_missing = stated > 0 ? missing : 0;
+    if (!spec.student) data.noise.shares_instants = number_bounces(datasets, data);
     complete_sd(data.points);
     begin_counts(data.points);
     return data;
@@ -295,7 +295,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   begin_counts(data.points);
   data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
   data.noise.scale = nominal_sd;
-  data.sd_set_aside = stated;
+  data.noise.sd_set_aside = stated;
   return data;
 }
 

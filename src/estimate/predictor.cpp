@@ -149,8 +149,8 @@ ImpactGroups PointPredictor::groups_at(std::size_t i) const {
 }
 
 /// Simulates answers.size() points from `first` on. @return the impacts handed to the reference
-long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
-                         std::span<ImpactResult> answers) const {
+long PointPredictor::simulate_range(std::size_t first, const ImpactOptions& options,
+                                    std::span<ImpactResult> answers) const {
   static thread_local std::array<ImpactGroups, points_of_block> groups;
   long handed_over = 0;
   for (std::size_t done = 0; done < answers.size();) {
@@ -188,7 +188,7 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   if (extended_) return evaluate_extended(theta, options);
   std::atomic<long> handed_over = 0;
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
-    handed_over += fly(first, options, std::span(results_).subspan(first, count));
+    handed_over += simulate_range(first, options, std::span(results_).subspan(first, count));
   });
   return handed_over;
 }
@@ -227,7 +227,7 @@ long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     std::array<ImpactResult, points_of_block> room;
     const std::span<ImpactResult> answers = std::span(room).first(count);
-    handed_over += fly(first, options, answers);
+    handed_over += simulate_range(first, options, answers);
     take(first, answers);
   });
   return handed_over;

@@ -76,7 +76,8 @@ class PointPredictor {
   void take_parameters(std::span<const double> theta, bool gradient);
   void take_materials(std::span<const double> theta, bool gradient);
   ImpactGroups groups_at(std::size_t i) const;
-  long fly(std::size_t first, const ImpactOptions& options, std::span<ImpactResult> answers) const;
+  long simulate_range(std::size_t first, const ImpactOptions& options,
+                      std::span<ImpactResult> answers) const;
   long evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
 
   const ImpactModel& model_;

@@ -10,27 +10,6 @@
 
 namespace recoil {
 
-/// Recomputes only the scatter from impact to impact: event_spread by maximum likelihood at
-/// `theta`, and the weights that depend on it. Standard deviations and effective variances do not
-/// change. Does nothing if event_spread is 0.
-/// @return false if an impact cannot be solved
-bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
-                        Observations& data);
-
-/// The part that the uncertainty of event_spread adds to the covariance (J'J)^-1 of an estimate:
-/// with T = -2 ln likelihood, g = d^2 T / (d theta d ln omega) / 2, h = d^2 T / (d ln omega)^2 / 2
-/// and C = (J'J)^-1,
-///   v b b',  b = -C g = d theta / d ln omega,  v = 1 / (h - g'C g) the variance of ln omega,
-/// from the joint information of both, inverted by blocks [p x p]. Empty if event_spread is not
-/// used, or if C is empty. Derivatives are differences over a tenth of ln omega; v is at most 1 (a
-/// factor e).
-std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
-                                            const Observations& data, std::span<const double> C);
-
-/// -2 ln likelihood minus the sum of squared residuals, as far as it depends on event_spread: sum
-/// over the points with scatter and rebounds of D(peak) + 2 ln mean_sd.
-double event_spread_offset(const Observations& data);
-
 /// The estimate together with its weights (iteratively reweighted least squares).
 struct ReweightedFit {
   LeastSquaresResult run;  ///< the last descent; not ended() when a round failed
@@ -94,6 +73,6 @@ double penalty_of(VarianceFunction function);
 
 /// The difference in -2 ln restricted likelihood, with penalties, between the second-best and the
 /// chosen candidate; 0 without a choice.
-double choice_margin(const NoiseModel& noise);
+double choice_margin(const Noise& noise);
 
 }  // namespace recoil

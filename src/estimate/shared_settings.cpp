@@ -241,7 +241,7 @@ double estimated_setting_error(const Observations& data, std::span<const double>
   }
   // The stated standard deviations hold unless the points scatter more within their settings.
   const double scatter = within / freedom;
-  const double unit = data.sd_stated ? std::max(1.0, scatter) : scatter;
+  const double unit = data.noise.sd_stated ? std::max(1.0, scatter) : scatter;
   const auto excess = [&](double error) {
     const Eigen::ArrayXd root = (unit / weight + error * error).rsqrt();
     const Eigen::VectorXd white = (root * mean).matrix();
@@ -264,15 +264,15 @@ int spare_settings(const Observations& data, int free_count) {
 }
 
 bool too_few_settings(const Observations& data, int free_count) {
-  return data.setting_sd_estimated && spare_settings(data, free_count) < fewest_deviations;
+  return data.noise.setting_sd_estimated && spare_settings(data, free_count) < fewest_deviations;
 }
 
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
-  if (!data.shares_errors()) return;
+  if (!data.noise.shares_errors()) return;
   double& error = data.noise.setting_sd;
-  if (data.spec.setting_sd) {
-    error = *data.spec.setting_sd;
-  } else if (!data.setting_sd_estimated || spare_settings(data, free_count) < 1) {
+  if (data.noise.spec.setting_sd) {
+    error = *data.noise.spec.setting_sd;
+  } else if (!data.noise.setting_sd_estimated || spare_settings(data, free_count) < 1) {
     error = 0.0;
   } else {
     error = std::min(estimated_setting_error(data, predicted, free_count, series_offsets(data)),
@@ -291,7 +291,7 @@ void renew_settings(std::span<const double> predicted, int free_count, Observati
 std::vector<double> draw_setting_errors(const Observations& data, double noise_scale,
                                         RandomStream& random) {
   std::vector<double> errors(data.points.size(), 0.0);
-  if (data.shares_instants) {
+  if (data.noise.shares_instants) {
     std::map<std::size_t, std::vector<std::size_t>> launches;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       if (data.points[i].launch != Observation::no_launch) {
@@ -310,7 +310,7 @@ std::vector<double> draw_setting_errors(const Observations& data, double noise_s
       }
     }
   }
-  if (data.series_diameter_stated) {
+  if (data.noise.series_diameter_stated) {
     std::map<std::pair<std::size_t, std::size_t>, double> of_series;  // in standard deviations
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const Observation& point = data.points[i];
@@ -319,7 +319,7 @@ std::vector<double> draw_setting_errors(const Observations& data, double noise_s
       errors[i] = place->second * point.weights.size_sd;
     }
   }
-  if (!(data.noise.setting_sd > 0.0) && !data.setting_velocity_stated) return errors;
+  if (!(data.noise.setting_sd > 0.0) && !data.noise.setting_velocity_stated) return errors;
   std::map<std::size_t, double> drawn;  // in standard deviations
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const auto [place, is_new] = drawn.try_emplace(data.points[i].setting, 0.0);

@@ -122,7 +122,7 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
     fit.points += static_cast<int>(dataset.points.size());
   }
   fit.chi2 = f.chi2;
-  fit.sd_stated = f.data.sd_stated && f.dof > 0;
+  fit.sd_stated = f.data.noise.sd_stated && f.dof > 0;
   fit.rmse = f.rmse;
   fit.held_out_rmse = law.held_out_rmse;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {

@@ -70,7 +70,7 @@ Sentence capture_words(const Analysis& a) {
 
 /// Does the model fit? A diagnosis allows for errors of its laws, a fit alone does not.
 Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
-  if (diagnosis == nullptr || !a.fitted.data.sd_stated) return quality_words(a.fitted);
+  if (diagnosis == nullptr || !a.fitted.data.noise.sd_stated) return quality_words(a.fitted);
   if (!diagnosis->answer_if<Adequate>()) {
     return a.fitted.noise_verdict == NoiseVerdict::exceeded ? quality_words(a.fitted)
                                                             : "The model does not fit.";

@@ -90,7 +90,7 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
 
   const PointColumns columns = point_columns(analysis, panel.points);
   const auto points =
-      rebound_layer(analysis, columns, points_name(dataset, analysis.fitted.data.sd_stated));
+      rebound_layer(analysis, columns, points_name(dataset, analysis.fitted.data.noise.sd_stated));
   if (points) shown.layers.push_back(*points);
   if (!columns.captured.empty()) {
     shown.layers.push_back(
@@ -211,7 +211,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel, const p
 /// Unit of the displayed residuals: 1, or the estimated noise where no deviation is stated.
 double residual_unit(const Analysis& analysis) {
   const double scale = analysis.fitted.noise_scale;
-  return !analysis.fitted.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+  return !analysis.fitted.data.noise.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
 struct ResidualRow {
@@ -280,7 +280,7 @@ Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRo
   return say(
       "{}: data minus fit in {}. {} of {} are outside the dashed lines, {:.0f} expected.",
       short_name(analysis.datasets, dataset),
-      analysis.fitted.data.sd_stated ? "standard deviations" : "units of the estimated noise",
+      analysis.fitted.data.noise.sd_stated ? "standard deviations" : "units of the estimated noise",
       outside, rows.size(), 0.0455 * static_cast<double>(rows.size()));
 }
 

@@ -54,7 +54,7 @@ std::string remark_of(const FitResult& f, std::size_t s, const Interval& interva
 }
 
 Cell p_value_cell(const FitResult& f) {
-  if (!f.data.sd_stated) return "not defined (no standard deviations are stated)";
+  if (!f.data.noise.sd_stated) return "not defined (no standard deviations are stated)";
   if (f.dof <= 0) return "not defined (no degrees of freedom left)";
   return Number{f.p_value, probability()};
 }
@@ -63,7 +63,7 @@ Cell p_value_cell(const FitResult& f) {
 Cell degrees_of_freedom_cell(const FitResult& f) {
   const int silent =
       static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
-  if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
+  if (!f.data.noise.sd_stated || f.data.noise.spec.student || silent <= 0) {
     return whole(std::max(0, f.dof));
   }
   return say("{} ({} captured point{} excluded)", std::max(0, f.dof), silent,
@@ -253,9 +253,10 @@ Table statistics_table(const Analysis& a) {
                                : "during approach and rebound"},
       {"mechanisms", joined(a.spec.mechanisms, ", ",
                             [](const std::string& id) { return Sentence(words_of(id)); })},
-      {"method", say("{} in {e}{}, {}; {}",
-                     f.data.spec.student ? "Student's t likelihood" : "weighted least squares",
-                     exponent("2"), strategy_words(f.strategy), starts_words(f))},
+      {"method",
+       say("{} in {e}{}, {}; {}",
+           f.data.noise.spec.student ? "Student's t likelihood" : "weighted least squares",
+           exponent("2"), strategy_words(f.strategy), starts_words(f))},
       {"data points", whole(f.data.points.size())},
       {"free parameters", whole(free_parameters(f))},
       {"chi-square", Number{f.chi2, significant(6)}},

@@ -69,7 +69,7 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
     if (point.dataset != dataset) continue;
     lower = std::min(lower, point.velocity);
     upper = std::max(upper, point.velocity);
-    const double sd = analysis.fitted.data.sd_stated ? point.weights.sd : 0.0;
+    const double sd = analysis.fitted.data.noise.sd_stated ? point.weights.sd : 0.0;
     axes.top = std::max(axes.top, std::min(1.5, 1.03 * (point.restitution + sd)));
   }
   const double slowest = lower;
@@ -142,7 +142,7 @@ std::optional<plot::Points> rebound_layer(const Analysis& analysis, const PointC
                                           const std::string& name) {
   if (columns.velocity.empty()) return std::nullopt;
   plot::Points points{columns.velocity, columns.restitution};
-  if (analysis.fitted.data.sd_stated) points.with_sd(columns.sd);
+  if (analysis.fitted.data.noise.sd_stated) points.with_sd(columns.sd);
   points.name = name;
   return points;
 }

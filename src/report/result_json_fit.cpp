@@ -305,7 +305,7 @@ OrReason<double> rmse_of(const FitResult& f) {
 }
 
 FitFile::Goodness goodness_of(const FitResult& f) {
-  const bool stated = f.data.sd_stated;
+  const bool stated = f.data.noise.sd_stated;
   return {.chi2 = {f.chi2, "the sum of squares is not finite"},
           .dof = f.dof,
           .p_value = {only_if(stated && f.dof > 0, f.p_value),
@@ -319,7 +319,7 @@ FitFile::Goodness goodness_of(const FitResult& f) {
 
 FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;
-  const NoiseModel& noise = data.noise;
+  const Noise& noise = data.noise;
   const auto count_with = [&](double MeasuredPoint::*error) {
     return static_cast<int>(
         std::count_if(data.points.begin(), data.points.end(),
@@ -328,10 +328,10 @@ FitFile::Noise noise_of(const FitResult& f) {
   FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
-  out.scale = {only_if(!data.sd_stated && noise.known, noise.scale),
+  out.scale = {only_if(!data.noise.sd_stated && noise.known, noise.scale),
                noise.known ? "the standard deviations are stated" : noise_words(f)};
   if (noise.known) out.scale_text = scale_words(noise.variance, noise.scale);
-  for (const VarianceCandidate& candidate : noise.candidates) {
+  for (const Noise::Candidate& candidate : noise.candidates) {
     out.candidates.push_back({.variance = candidate.function,
                               .scale = candidate.scale,
                               .criterion = candidate.criterion,
@@ -343,9 +343,9 @@ FitFile::Noise noise_of(const FitResult& f) {
   out.points_with_diameter_errors = count_with(&MeasuredPoint::diameter_sd);
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
-  out.setting_sd = {only_if(data.shares_settings(), noise.setting_sd),
+  out.setting_sd = {only_if(data.noise.shares_settings(), noise.setting_sd),
                     "the points of one setting are assumed to share no error"};
-  out.setting_sd_estimated = data.setting_sd_estimated;
+  out.setting_sd_estimated = data.noise.setting_sd_estimated;
   out.residuals = noise.student ? "student" : "normal";
   out.student_dof = {noise.student ? std::optional(noise.student->dof) : std::nullopt,
                      "normal residuals"};
@@ -575,21 +575,21 @@ std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
     const Observation& point = f.data.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     const bool in_series = point.series < dataset.series.size();
-    rows.push_back(
-        {.dataset = dataset.id,
-         .series = in_series ? dataset.series[point.series] : "",
-         .diameter_um = in_um(point.diameter),
-         .incident_velocity = point.velocity,
-         .restitution = only_if(!point.counts_only(), point.restitution),
-         .restitution_sd = only_if(f.data.sd_stated && !point.counts_only(), point.weights.sd),
-         .sd_used = point.weights.sd,
-         .sd_of_e2_from_inputs = point.weights.input_sd,
-         .captured = point.rebounds() == 0,
-         .captured_count = point.captured,
-         .events = point.events,
-         .predicted = at(f.prediction, i),
-         .weighted_residual = at(f.residuals, i),
-         .leverage = at(f.leverage, i)});
+    rows.push_back({.dataset = dataset.id,
+                    .series = in_series ? dataset.series[point.series] : "",
+                    .diameter_um = in_um(point.diameter),
+                    .incident_velocity = point.velocity,
+                    .restitution = only_if(!point.counts_only(), point.restitution),
+                    .restitution_sd =
+                        only_if(f.data.noise.sd_stated && !point.counts_only(), point.weights.sd),
+                    .sd_used = point.weights.sd,
+                    .sd_of_e2_from_inputs = point.weights.input_sd,
+                    .captured = point.rebounds() == 0,
+                    .captured_count = point.captured,
+                    .events = point.events,
+                    .predicted = at(f.prediction, i),
+                    .weighted_residual = at(f.residuals, i),
+                    .leverage = at(f.leverage, i)});
   }
   return rows;
 }

@@ -25,12 +25,12 @@ constexpr double clear = 4.0;
 // ---- noise -------------------------------------------------------------------------------------
 
 std::string variance_words(const Observations& data) {
-  const NoiseModel& noise = data.noise;
+  const Noise& noise = data.noise;
   const std::string text =
       "estimated from the residuals: " + scale_words(noise.variance, noise.scale);
-  if (data.spec.variance || noise.candidates.empty()) return text;
+  if (data.noise.spec.variance || noise.candidates.empty()) return text;
   std::vector<std::string_view> others;
-  for (const VarianceCandidate& candidate : noise.candidates) {
+  for (const Noise::Candidate& candidate : noise.candidates) {
     if (candidate.function != noise.variance) others.push_back(name_of(candidate.function));
   }
   const double margin = choice_margin(noise);
@@ -86,16 +86,16 @@ std::string input_words(const std::vector<Observation>& points) {
 }
 
 std::string setting_words(const Observations& data, int free_count) {
-  if (!data.shares_settings()) return "";
+  if (!data.noise.shares_settings()) return "";
   const SettingCount count = count_settings(data);
-  const std::string source =
-      fmt::format("{}, {} settings, {} points", data.setting_sd_estimated ? "estimated" : "stated",
-                  count.settings, count.points);
-  if (data.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
+  const std::string source = fmt::format("{}, {} settings, {} points",
+                                         data.noise.setting_sd_estimated ? "estimated" : "stated",
+                                         count.settings, count.points);
+  if (data.noise.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
     return fmt::format("; the points of one setting share its stated error of velocity ({})",
                        source);
   }
-  if (data.setting_sd_estimated && spare_settings(data, free_count) < 1) {
+  if (data.noise.setting_sd_estimated && spare_settings(data, free_count) < 1) {
     return fmt::format(
         "; an error that the points of one setting share cannot be estimated from so few settings "
         "({})",
@@ -120,7 +120,7 @@ void add_new(Sentences& list, const Sentences& more) {
 /// noise is estimated for all: an F test of the most and the least, for all pairs (Bonferroni).
 Sentences unequal_noise_warnings(const FitResult& fitted) {
   const std::size_t datasets = fitted.model.contacts.size();
-  if (fitted.data.sd_stated || datasets < 2) return {};
+  if (fitted.data.noise.sd_stated || datasets < 2) return {};
   struct Residuals {
     double square = 0.0;
     double count = 0.0;
@@ -152,7 +152,7 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
 /// Shared errors that the points cannot show.
 Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
-  if (!data.setting_sd_estimated) return {};
+  if (!data.noise.setting_sd_estimated) return {};
   if (spare_settings(data, fitted.model.free_count()) > 0) {
     // Without adhesion e hardly depends on V, and an error of V is one of e.
     if (!adheres_anywhere(fitted.model)) return {};
@@ -180,27 +180,27 @@ constexpr int few_impacts = 15;
 
 /// Standard deviations that the fit did not use.
 Sentences data_warnings(const Observations& data) {
-  if (data.sd_stated && data.sd_missing > 0) {
+  if (data.noise.sd_stated && data.noise.sd_missing > 0) {
     return {
         fmt::format("{} points state no restitution_sd; their single impacts are assumed to "
                     "scatter like the median of the others",
-                    data.sd_missing)};
+                    data.noise.sd_missing)};
   }
   const auto few = std::count_if(data.points.begin(), data.points.end(), [](const auto& point) {
     return point.rebounds() > 1 && point.rebounds() < few_impacts;
   });
-  if (data.sd_stated && few > 0) {
+  if (data.noise.sd_stated && few > 0) {
     return {fmt::format(
         "{} points average fewer than {} impacts: if their restitution_sd were computed from these "
         "alone, the intervals are too narrow; pool the deviations of all points, or let the fit "
         "estimate them ([noise] variance = \"constant\")",
         few, few_impacts)};
   }
-  if (data.sd_stated || data.sd_set_aside == 0) return {};
+  if (data.noise.sd_stated || data.noise.sd_set_aside == 0) return {};
   return {
       fmt::format("the restitution_sd of {} points is ignored: the fit file requests an "
                   "estimated variance",
-                  data.sd_set_aside)};
+                  data.noise.sd_set_aside)};
 }
 
 /// Parameters that the fit does not determine.
@@ -312,7 +312,7 @@ Sentence quality_words(const FitResult& f) {
   if (!f.data.noise.known) {
     return say("The fit cannot be tested: its noise is not known ({}).", why_noise_is_unknown(f));
   }
-  if (!f.data.sd_stated) {
+  if (!f.data.noise.sd_stated) {
     return say(
         "The rms residual of {e} is {}; without stated standard deviations the fit cannot be "
         "tested.",

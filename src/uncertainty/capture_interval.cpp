@@ -179,7 +179,7 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
     if (!studentized.available() && !studentized.missing) {
       studentized.missing = percentile.missing;
     }
-    recommend_capture(fitted, fitted.data.sd_stated, capture);
+    recommend_capture(fitted, fitted.data.noise.sd_stated, capture);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/numerics.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "estimate/observation.hpp"
@@ -19,10 +20,8 @@ constexpr std::size_t most_band_replicates = 999;
 std::vector<double> velocity_grid(double slowest, double fastest, double capture) {
   const double first = capture > 0.0 ? std::min(slowest, 0.9 * capture) : 0.8 * slowest;
   const double last = 1.2 * fastest;
-  std::set<double> grid;
-  for (int i = 0; i < even_velocities; ++i) {
-    grid.insert(first * std::pow(last / first, i / (even_velocities - 1.0)));
-  }
+  const std::vector<double> even = log_spaced(first, last, even_velocities);
+  std::set<double> grid(even.begin(), even.end());
   for (int i = 0; capture > 0.0 && i < capture_velocities; ++i) {
     const double v = capture * (1.0 + 0.2 * std::pow(i / (capture_velocities - 1.0), 2) + 1e-6);
     if (v > first && v < last) grid.insert(v);

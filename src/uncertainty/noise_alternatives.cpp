@@ -11,7 +11,7 @@ namespace {
 constexpr double negligible = 1e-3;  // weight below which an alternative is omitted
 constexpr double plausible = 0.05;
 
-double total_criterion(const VarianceCandidate& candidate) {
+double total_criterion(const Noise::Candidate& candidate) {
   return candidate.criterion + penalty_of(candidate.function);
 }
 
@@ -19,12 +19,12 @@ double total_criterion(const VarianceCandidate& candidate) {
 
 std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
   std::vector<NoiseAlternative> alternatives = {{1.0, fitted}};
-  const NoiseModel& noise = fitted.data.noise;
+  const Noise& noise = fitted.data.noise;
   double least = INFINITY;
-  for (const VarianceCandidate& candidate : noise.candidates) {
+  for (const Noise::Candidate& candidate : noise.candidates) {
     least = std::min(least, total_criterion(candidate));
   }
-  for (const VarianceCandidate& candidate : noise.candidates) {
+  for (const Noise::Candidate& candidate : noise.candidates) {
     const double weight = std::exp(-0.5 * (total_criterion(candidate) - least));
     if (candidate.function == noise.variance) {
       alternatives.front().weight = weight;
@@ -32,7 +32,7 @@ std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
     }
     if (weight < negligible) continue;
     Observations data = fitted.data;
-    data.spec.variance = candidate.function;
+    data.noise.spec.variance = candidate.function;
     data.noise.variance = candidate.function;
     data.noise.scale = candidate.scale;
     data.noise.candidates.clear();

@@ -79,7 +79,7 @@ void add_profile_curves(const FitResult& fitted, double level, int threads,
 void add_resampled_intervals(const FitResult& fitted, const BootstrapResult& replicates,
                              double level, int threads, std::vector<IntervalSet>& sets) {
   const auto& slots = fitted.model.slots;
-  const bool sd_stated = fitted.data.sd_stated;
+  const bool sd_stated = fitted.data.noise.sd_stated;
   std::vector<std::vector<double>> delete_one;
   if (!replicates.theta.empty()) {
     delete_one = jackknife(plan_resampling(fitted, replicates.scheme), threads);

@@ -76,7 +76,7 @@ class PosteriorCoordinates {
 
 /// Is the scale of the noise a parameter?
 bool scale_unknown(const FitResult& fitted) {
-  return !fitted.data.sd_stated || fitted.noise_verdict == NoiseVerdict::exceeded;
+  return !fitted.data.noise.sd_stated || fitted.noise_verdict == NoiseVerdict::exceeded;
 }
 
 /// A state of a chain.
@@ -539,7 +539,7 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
     return result;
   }
   result.length = options.length;
-  if (fitted.data.shares_errors()) {
+  if (fitted.data.noise.shares_errors()) {
     result.left_out.missing = NoLeaveOneOut::shared_errors;
   } else if (fitted.data.noise.student) {
     result.left_out.missing = NoLeaveOneOut::student;

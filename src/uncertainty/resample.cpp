@@ -33,7 +33,7 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
     // The residual before whitening includes the error that its setting shares.
-    const double residual = fitted.data.shares_errors()
+    const double residual = fitted.data.noise.shares_errors()
                                 ? weighted_residual(point, fitted.prediction_squared[i]).value
                                 : fitted.residuals[i];
     scaled[i] = residual / std::pow(1.0 - h, power);
@@ -59,7 +59,7 @@ std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
-    const bool by_setting = data.shares_settings() && !data.series_diameter_stated;
+    const bool by_setting = data.noise.shares_settings() && !data.noise.series_diameter_stated;
     found[by_setting ? std::pair(std::size_t{0}, point.setting)
                      : std::pair(point.dataset, point.series)]
         .push_back(i);
@@ -101,15 +101,15 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
     return SchemeObstacle::no_residuals;
   }
   if ((scheme == Scheme::residual || scheme == Scheme::cases) &&
-      (data.noise.setting_sd > 0.0 || data.setting_velocity_stated)) {
+      (data.noise.setting_sd > 0.0 || data.noise.setting_velocity_stated)) {
     return SchemeObstacle::shared_settings;
   }
   if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
-      data.series_diameter_stated) {
+      data.noise.series_diameter_stated) {
     return SchemeObstacle::shared_sizes;
   }
   if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
-      data.shares_instants) {
+      data.noise.shares_instants) {
     return SchemeObstacle::shared_instants;
   }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
@@ -144,11 +144,11 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   plan.scheme = asked;
   if (asked == Scheme::automatic) {
     const bool residuals = !scheme_obstacle(Scheme::wild, data);
-    plan.scheme = data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
-    plan.because = data.sd_stated                ? SchemeBecause::sd_stated
-                   : residuals                   ? SchemeBecause::sd_not_stated
-                   : data.series_diameter_stated ? SchemeBecause::shared_sizes
-                                                 : SchemeBecause::no_residuals;
+    plan.scheme = data.noise.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
+    plan.because = data.noise.sd_stated                ? SchemeBecause::sd_stated
+                   : residuals                         ? SchemeBecause::sd_not_stated
+                   : data.noise.series_diameter_stated ? SchemeBecause::shared_sizes
+                                                       : SchemeBecause::no_residuals;
   }
   if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
   if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);
@@ -169,7 +169,7 @@ void resample_parametric(const ResamplingPlan& plan, std::span<const double> set
                              shifted_square(plan.fitted->prediction_squared[i], setting_errors[i]),
                              own_noise_scale(plan.fitted->data.points[i], plan.fitted->noise_scale),
                              plan.fitted->data.noise.student, random);
-    if (!other_constants || !plan.fitted->data.sd_stated) continue;
+    if (!other_constants || !plan.fitted->data.noise.sd_stated) continue;
     const Observation& measured = plan.fitted->data.points[i];
     Observation& point = sample.points[i];
     if (measured.censored || point.censored) continue;
@@ -190,7 +190,8 @@ void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observation
   sample.points = plan.fitted->data.points;
   std::map<std::size_t, double> sign_of;  // sign of each setting, if its points share an error
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    const std::size_t unit = plan.fitted->data.shares_settings() ? sample.points[i].setting : i;
+    const std::size_t unit =
+        plan.fitted->data.noise.shares_settings() ? sample.points[i].setting : i;
     const auto [sign, is_new] = sign_of.try_emplace(unit, 1.0);
     if (is_new && random.uniform() < 0.5) sign->second = -1.0;
     disturb(plan, i, sign->second * plan.residuals[i], random, sample);
@@ -324,7 +325,7 @@ std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Ob
                                          const FitResult& fitted, const ResamplingPlan& plan) {
   if (run.covariance.empty()) return {};
   // If the noise is estimated, this run has estimated it again.
-  const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
+  const double scale = data.noise.sd_stated ? fitted.noise_scale : 1.0;
   std::vector<double> covariance = uses_sandwich(plan.scheme)
                                        ? sandwich_of(run, data)
                                        : scaled_covariance(data, run.covariance, scale);

@@ -10,7 +10,7 @@ namespace {
 
 Observations points(int count, bool stated) {
   Observations data;
-  data.sd_stated = stated;
+  data.noise.sd_stated = stated;
   data.points.resize(static_cast<std::size_t>(count));
   return data;
 }

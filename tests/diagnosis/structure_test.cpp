@@ -125,7 +125,7 @@ TEST(Structure, TellsLargeScatterFromShape) {
     std::vector<double> r = noise(random);
     for (double& value : r) value *= 1.8;
     made.fitted.residuals = made.statistics().residuals_of_noise(r);
-    made.data.sd_stated = false;  // nobody said how large it should be
+    made.data.noise.sd_stated = false;  // nobody said how large it should be
     const Structure found =
         quick_structure(made.data, made.fitted, made.predicted,
                         white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
@@ -134,7 +134,7 @@ TEST(Structure, TellsLargeScatterFromShape) {
     accused += found.p_value <= 0.05 ? 1 : 0;
   }
   EXPECT_LE(accused, 12);  // binomial with 5 %: more has a chance of 1 in 500
-  made.data.sd_stated = true;
+  made.data.noise.sd_stated = true;
   EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted,
                                  white_noise(199, made.data.points.size(), 1)),
                  StructureQuestion::scatter),
@@ -167,7 +167,7 @@ struct Drops {
   std::vector<double> predicted;
 
   Drops(int heights, int each, bool stated) {
-    data.sd_stated = stated;
+    data.noise.sd_stated = stated;
     for (int h = 0; h < heights; ++h) {
       for (int i = 0; i < each; ++i) {
         Observation point;

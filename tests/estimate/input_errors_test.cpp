@@ -38,7 +38,7 @@ Summary with_velocity_errors(bool accounted_for, bool rebound_measured) {
       point.restitution += 0.01 * random.normal();
       point.restitution_sd = 0.01;
     }
-    NoiseSpec spec;
+    Noise::Spec spec;
     spec.velocity_errors = accounted_for;
     const FitResult result = fit_to(data, spec);
     if (!result.usable) {

@@ -36,7 +36,7 @@ TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
   // Small enough for first-order errors where steep makes it sevenfold.
   const double s = GetParam() == VarianceFunction::steep ? 0.01 : 0.04;
   const Dataset clean = design(16);
-  NoiseSpec spec;
+  Noise::Spec spec;
   spec.variance = GetParam();
   double scale_squared = 0.0;
   double theta[2] = {0.0, 0.0};
@@ -121,7 +121,7 @@ TEST(Noise, TheChoiceIsReportedWithItsMargin) {
   EXPECT_EQ(result.noise_verdict, NoiseVerdict::estimated);
   EXPECT_EQ(result.data.noise.candidates.size(), 4U);
   EXPECT_GT(choice_margin(result.data.noise), 0.0);
-  NoiseSpec asked;
+  Noise::Spec asked;
   asked.variance = VarianceFunction::constant;
   const FitResult constant = fit_to(data, asked);
   EXPECT_EQ(constant.data.noise.variance, VarianceFunction::constant);
@@ -131,17 +131,17 @@ TEST(Noise, TheChoiceIsReportedWithItsMargin) {
 TEST(Noise, StatedDeviationsAreUsedAndTheMissingOnesCompleted) {
   Dataset data = design(6);
   for (ImpactPoint& point : data.points) point.restitution_sd = 0.01;
-  EXPECT_TRUE(gather({data}).sd_stated);
-  NoiseSpec constant;
+  EXPECT_TRUE(gather({data}).noise.sd_stated);
+  Noise::Spec constant;
   constant.variance = VarianceFunction::constant;
-  EXPECT_FALSE(gather({data}, constant).sd_stated);
+  EXPECT_FALSE(gather({data}, constant).noise.sd_stated);
   data.points[2].restitution_sd.reset();
   const Observations mixed = gather({data});
-  EXPECT_TRUE(mixed.sd_stated);
-  EXPECT_EQ(mixed.sd_set_aside, 0);
-  EXPECT_EQ(mixed.sd_missing, 1);
+  EXPECT_TRUE(mixed.noise.sd_stated);
+  EXPECT_EQ(mixed.noise.sd_set_aside, 0);
+  EXPECT_EQ(mixed.noise.sd_missing, 1);
   EXPECT_EQ(mixed.points[2].weights.sd, 0.01) << "the median of the others";
-  NoiseSpec stated;
+  Noise::Spec stated;
   stated.variance = VarianceFunction::stated;
   EXPECT_THROW(gather({data}, stated), InputError);
 }
@@ -159,7 +159,7 @@ TEST(Noise, StudentHoldsAgainstOutliers) {
       point.restitution_sd = 0.01;
       point.restitution += factor * 0.01 * random.normal();
     }
-    NoiseSpec student;
+    Noise::Spec student;
     student.student = true;
     const FitResult a = fit_to(data);
     const FitResult b = fit_to(data, student);
@@ -184,7 +184,7 @@ TEST(Noise, StudentScaleMeansTheNormalCore) {
     Dataset data = clean;
     RandomStream random(26, RandomPurpose::coverage, k);
     for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
-    NoiseSpec spec;
+    Noise::Spec spec;
     spec.student = true;
     spec.variance = VarianceFunction::constant;
     const FitResult estimated = fit_to(data, spec);
@@ -269,7 +269,7 @@ TEST(Noise, IsNotSmallerThanTheRoundingOfTheReadings) {
   for (ImpactPoint& point : data.points) {
     point.restitution = std::round(100.0 * point.restitution) / 100.0;
   }
-  NoiseSpec spec;
+  Noise::Spec spec;
   spec.variance = VarianceFunction::constant;
   const FitResult result = fit_to(data, spec);
   ASSERT_TRUE(result.usable) << result.failure;

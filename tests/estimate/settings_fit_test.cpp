@@ -65,7 +65,7 @@ Dataset measured(const Drops& drops, unsigned seed) {
   return data;
 }
 
-FitResult fitted(const Dataset& data, const NoiseSpec& noise = {}) {
+FitResult fitted(const Dataset& data, const Noise::Spec& noise = {}) {
   FitOptions options;
   options.several_starts = false;
   const std::vector<Dataset> datasets = {data};
@@ -160,9 +160,9 @@ TEST(SharedSizes, WidenTheErrorByTheSizeOfTheBatch) {
 
 TEST(SharedSettings, ADatasetThatNamesNoneSharesNothing) {
   const FitResult plain = fitted(measured({.named = false}, 1));
-  EXPECT_FALSE(plain.data.shares_settings());
+  EXPECT_FALSE(plain.data.noise.shares_settings());
   EXPECT_TRUE(SharedSettings(plain.data.points).none());
-  NoiseSpec noise;
+  Noise::Spec noise;
   noise.every_setting = true;  // those of equal velocity
   const FitResult asked = fitted(measured({.named = false}, 1), noise);
   EXPECT_EQ(asked.data.noise.setting_sd, fitted(measured({}, 1)).data.noise.setting_sd);
@@ -182,12 +182,12 @@ TEST(SharedSettings, SchemesThatExchangePointsAreRefusedOnceTheFitHasFoundTheSha
 }
 
 TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
-  NoiseSpec noise;
+  Noise::Spec noise;
   noise.student_dof = 7.0;
   Observations all = gather({measured({}, 1)}, noise);
   all.noise.scale = 0.3;
-  all.sd_set_aside = 2;
-  all.sd_missing = 3;
+  all.noise.sd_set_aside = 2;
+  all.noise.sd_missing = 3;
   all.constants = {1.5};
   all.constants_weight = 2.5;
   const std::vector<std::size_t> indices = {5, 1};
@@ -197,12 +197,12 @@ TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
   EXPECT_EQ(part.points[1].restitution, all.points[1].restitution);
   EXPECT_EQ(part.noise.scale, 0.3);
   EXPECT_EQ(part.spec.student_dof, 7.0);
-  EXPECT_EQ(part.sd_stated, all.sd_stated);
-  EXPECT_EQ(part.sd_set_aside, 2);
-  EXPECT_EQ(part.sd_missing, 3);
+  EXPECT_EQ(part.noise.sd_stated, all.noise.sd_stated);
+  EXPECT_EQ(part.noise.sd_set_aside, 2);
+  EXPECT_EQ(part.noise.sd_missing, 3);
   EXPECT_EQ(part.constants, all.constants);
   EXPECT_EQ(part.constants_weight, 2.5);
-  EXPECT_EQ(part.setting_sd_estimated, all.setting_sd_estimated);
+  EXPECT_EQ(part.noise.setting_sd_estimated, all.noise.setting_sd_estimated);
 }
 
 /// The means of every `each` points in turn, of no setting, with the errors sd(mean).
@@ -232,7 +232,7 @@ TEST(SharedSettings, AllDropsSayWhatTheirMeansSay) {
   const Dataset means = means_of(all, 10, [&](const ImpactPoint&) {
     return std::hypot(drops.shared, own_sd / std::sqrt(10.0));
   });
-  NoiseSpec noise;
+  Noise::Spec noise;
   noise.setting_sd = drops.shared;
   const FitResult by_drops = fitted(all, noise);
   const FitResult by_means = fitted(means);
@@ -253,10 +253,10 @@ TEST_P(SettingErrors, AreEstimatedAndTheErrorsOfTheParametersHold) {
   double error[2] = {0.0, 0.0};
   double claimed[2] = {0.0, 0.0};
   double without[2] = {0.0, 0.0};
-  NoiseSpec none;
+  Noise::Spec none;
   none.setting_sd = 0.0;
   if (!drops.stated) none.variance = VarianceFunction::constant;
-  NoiseSpec shared = none;
+  Noise::Spec shared = none;
   shared.setting_sd.reset();
   const double truth[] = {3e-3, 0.03};
   for (unsigned k = 0; k < sets; ++k) {
@@ -294,7 +294,7 @@ TEST(SharedSettings, WhereThereIsNoErrorNoneIsFound) {
 
 TEST(SharedSettings, FewerSettingsThanParametersSayNothing) {
   const FitResult result = fitted(measured({.settings = 2, .each = 20}, 1));
-  EXPECT_TRUE(result.data.shares_settings());
+  EXPECT_TRUE(result.data.noise.shares_settings());
   EXPECT_EQ(result.data.noise.setting_sd, 0.0);
 }
 
@@ -390,7 +390,7 @@ TEST(SettingVelocities, AreTheErrorsOfTheMeansOfTheirSettings) {
   });
   const FitResult by_drops = fitted(all);
   const FitResult by_means = fitted(means);
-  EXPECT_FALSE(by_drops.data.setting_sd_estimated) << "what is stated is not estimated";
+  EXPECT_FALSE(by_drops.data.noise.setting_sd_estimated) << "what is stated is not estimated";
   EXPECT_EQ(by_drops.data.noise.setting_sd, 0.0);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(by_drops.theta[j], by_means.theta[j], 0.1 * by_means.std_error[j]) << j;
@@ -418,7 +418,7 @@ TEST(SettingVelocities, TheErrorsOfTheParametersHoldForFewHeights) {
 }
 
 TEST(SettingVelocities, DoNotGoWithStudentsResiduals) {
-  NoiseSpec noise;
+  Noise::Spec noise;
   noise.student = true;
   EXPECT_THROW(gather({measured_from_heights(0.02, 4, 3, 1)}, noise), InputError);
 }
@@ -471,8 +471,8 @@ Dataset timed_launch(double e, double sd_of_instants, std::mt19937& random,
 TEST(TimedBounces, HaveTheCovarianceOfTheirInstants) {
   std::mt19937 random(3);
   Eigen::MatrixXd covariance;
-  const Observations data = gather({timed_launch(0.82, 1e-3, random, &covariance)}, NoiseSpec());
-  ASSERT_TRUE(data.shares_instants);
+  const Observations data = gather({timed_launch(0.82, 1e-3, random, &covariance)}, Noise::Spec());
+  ASSERT_TRUE(data.noise.shares_instants);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =
       sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
@@ -501,10 +501,10 @@ TEST(TimedBounces, AreIndependentWhereOneIsMissingOrNoErrorIsStated) {
   std::mt19937 random(4);
   Dataset data = timed_launch(0.82, 1e-3, random);
   data.points = {data.points[0], data.points[2], data.points[4]};
-  EXPECT_FALSE(gather({data}, NoiseSpec()).shares_instants);
+  EXPECT_FALSE(gather({data}, Noise::Spec()).noise.shares_instants);
   data = timed_launch(0.82, 1e-3, random);
   for (ImpactPoint& point : data.points) point.restitution_sd.reset();
-  EXPECT_FALSE(gather({data}, NoiseSpec()).shares_instants);
+  EXPECT_FALSE(gather({data}, Noise::Spec()).noise.shares_instants);
 }
 
 TEST(TimedBounces, NarrowTheErrorOfAConstantRestitutionAndItHolds) {
@@ -528,7 +528,7 @@ TEST(TimedBounces, NarrowTheErrorOfAConstantRestitutionAndItHolds) {
     const std::vector<Dataset> data = {timed_launch(0.82, 3e-4, random)};
     FitOptions options;
     options.several_starts = false;
-    const FitResult found = fit(make_model(spec, data), gather(data, NoiseSpec()), options);
+    const FitResult found = fit(make_model(spec, data), gather(data, Noise::Spec()), options);
     ASSERT_TRUE(found.usable) << found.failure;
     const std::size_t slot = found.model.slots.size() - 1;
     squares += std::pow(found.theta[slot] - share, 2) / launches;

@@ -92,7 +92,7 @@ void add_dataset(Analysis& a, std::size_t k, const std::array<double, 3>& theta,
         point.incident_velocity = 0.6 * capture;
         point.restitution = 0.0;
         point.captured = point.events;
-      } else if (a.fitted.data.sd_stated) {
+      } else if (a.fitted.data.noise.sd_stated) {
         point.restitution_sd = noise;
       }
       dataset.points.push_back(point);
@@ -102,7 +102,7 @@ void add_dataset(Analysis& a, std::size_t k, const std::array<double, 3>& theta,
       seen.diameter = point.diameter;
       seen.velocity = point.incident_velocity;
       seen.restitution = point.restitution;
-      seen.weights.sd = a.fitted.data.sd_stated ? noise : 1.0;
+      seen.weights.sd = a.fitted.data.noise.sd_stated ? noise : 1.0;
       seen.censored = point.all_captured();
       a.fitted.data.points.push_back(seen);
       const double fitted = seen.censored ? 0.0 : truth;
@@ -262,7 +262,7 @@ Analysis two_datasets() {
   a.datasets = {sphere_dataset("example-molybdenum", "molybdenum", 320e9),
                 sphere_dataset("example-silicon", "silicon", 131e9)};
   a.datasets[1].provenance = Provenance::measured;
-  a.fitted.data.sd_stated = false;
+  a.fitted.data.noise.sd_stated = false;
   ImpactModel& model = a.fitted.model;
   for (const Dataset& dataset : a.datasets) {
     model.contacts.push_back(derive_contact(dataset.system, 4.9e-6));

@@ -71,7 +71,7 @@ TEST(RestitutionFigures, ShowEveryPointOnce) {
 
 TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
   const Analysis analysis = sample::four_diameters();
-  ASSERT_TRUE(analysis.fitted.data.sd_stated);
+  ASSERT_TRUE(analysis.fitted.data.noise.sd_stated);
   const auto points = layers_of<plot::Points>(plot_of(restitution_figures(analysis).front()));
   ASSERT_FALSE(points.empty());
   const Observation& first = analysis.fitted.data.points.front();

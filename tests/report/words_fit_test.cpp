@@ -37,10 +37,10 @@ std::size_t warnings_after(const Change& change) {
 
 TEST(FitWarnings, OneForEveryFact) {
   EXPECT_TRUE(fit_warnings(sound()).empty());
-  EXPECT_EQ(warnings_after([](FitResult& f) { f.data.sd_stated = false; }), 0U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.data.noise.sd_stated = false; }), 0U);
   EXPECT_EQ(warnings_after([](FitResult& f) {
-              f.data.sd_stated = false;
-              f.data.sd_set_aside = 5;
+              f.data.noise.sd_stated = false;
+              f.data.noise.sd_set_aside = 5;
             }),
             1U);
   EXPECT_EQ(warnings_after([](FitResult& f) {
@@ -52,7 +52,7 @@ TEST(FitWarnings, OneForEveryFact) {
   EXPECT_EQ(warnings_after([](FitResult& f) {
               f.data.points.resize(4);
               f.data.points[3].setting = 1;
-              f.data.setting_sd_estimated = true;
+              f.data.noise.setting_sd_estimated = true;
             }),
             1U)
       << "two settings and as many parameters";

@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-FitResult noisy_fit(const NoiseSpec& spec = {}) {
+FitResult noisy_fit(const Noise::Spec& spec = {}) {
   Dataset data = one_size::design(12);
   RandomStream random(5, RandomPurpose::coverage, 0);
   for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
@@ -30,7 +30,7 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
     sum += alternative.weight;
     EXPECT_LE(alternative.weight, all.front().weight) << "the chosen one is the most likely";
     const auto total = [&](const FitResult& of) {
-      for (const VarianceCandidate& candidate : fitted.data.noise.candidates) {
+      for (const Noise::Candidate& candidate : fitted.data.noise.candidates) {
         if (candidate.function == of.data.noise.variance) {
           return candidate.criterion + penalty_of(candidate.function);
         }
@@ -44,7 +44,7 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
 }
 
 TEST(NoiseAlternatives, PrescribedNoiseStandsAlone) {
-  NoiseSpec spec;
+  Noise::Spec spec;
   spec.variance = VarianceFunction::constant;
   const FitResult fitted = noisy_fit(spec);
   ASSERT_TRUE(fitted.usable) << fitted.failure;

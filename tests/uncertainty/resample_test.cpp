@@ -41,7 +41,7 @@ double leverage_scaled(const FitResult& fitted, std::size_t i, double power) {
 TEST(Plan, AutomaticFollowsWhatIsStated) {
   Case c = with_capture();
   EXPECT_EQ(plan_resampling(c.fitted, Scheme::automatic).scheme, Scheme::parametric);
-  c.fitted.data.sd_stated = false;
+  c.fitted.data.noise.sd_stated = false;
   const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::automatic);
   EXPECT_EQ(plan.scheme, Scheme::wild);
   EXPECT_EQ(plan.because, SchemeBecause::sd_not_stated);
@@ -60,7 +60,7 @@ TEST(Plan, ObstaclesAreNamed) {
 /// The same with every second point of one setting, whose points share an error of e.
 Case with_settings(double shared) {
   Case made = synthetic::noisy_case();
-  made.fitted.data.spec.setting_sd = shared;
+  made.fitted.data.noise.spec.setting_sd = shared;
   made.fitted.data.noise.setting_sd = shared;
   for (std::size_t i = 0; i < made.fitted.data.points.size(); ++i) {
     made.fitted.data.points[i].setting = i % 2;
