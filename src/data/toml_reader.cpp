@@ -135,6 +135,26 @@ double TomlReader::number(const toml::node& node, const std::string& name) const
   return value;
 }
 
+double TomlReader::number_in(const toml::node& node, const std::string& name, double lower,
+                             double upper, const std::string& suggestion) const {
+  const double value = number(node, name);
+  if (value < lower || value > upper) {
+    fail(node, fmt::format("{} = {:g}", name, value),
+         fmt::format("it has to lie between {:g} and {:g}", lower, upper), suggestion);
+  }
+  return value;
+}
+
+std::string TomlReader::one_of(const toml::node& node, const std::string& name,
+                               const std::string& what,
+                               const std::vector<std::string>& known) const {
+  const std::string word = string(node, name, fmt::format("{} = \"{}\"", name, known.front()));
+  if (std::ranges::find(known, word) == known.end()) {
+    fail(node, fmt::format("unknown {} {}", what, quote(word)), "", did_you_mean(word, known));
+  }
+  return word;
+}
+
 std::int64_t TomlReader::integer(const toml::node& node, const std::string& name) const {
   if (!node.is_integer()) {
     wrong_type(node, name, "a whole number", fmt::format("{} = 1999", name));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace recoil {
 
@@ -40,6 +41,18 @@ class TomlReader {
   double number(const toml::node& node, const std::string& name) const;  ///< finite
   std::int64_t integer(const toml::node& node, const std::string& name) const;
   bool boolean(const toml::node& node, const std::string& name) const;
+
+  /// A number from `lower` to `upper`; `suggestion` is that of the message about another one.
+  double number_in(const toml::node& node, const std::string& name, double lower, double upper,
+                   const std::string& suggestion) const;
+  /// One of the words `known`; the message about another one calls it a `what`.
+  std::string one_of(const toml::node& node, const std::string& name, const std::string& what,
+                     const std::vector<std::string>& known) const;
+  /// The value of an enumeration with that name.
+  template <class Enum>
+  Enum one_of(const toml::node& node, const std::string& name, const std::string& what) const {
+    return *value_named<Enum>(one_of(node, name, what, all_names<Enum>()));
+  }
 
  private:
   std::string file_;

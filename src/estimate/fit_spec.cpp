@@ -127,43 +127,32 @@ constexpr double largest_relative_sd = 0.5;
 constexpr double largest_student_dof = 1000.0;
 // A larger shared error of e is refused [1].
 constexpr double largest_setting_sd = 0.3;
+constexpr double largest_law_error = 0.5;
 // From less than an atom to more than the range of any force between dry surfaces [m].
 constexpr double least_separation = 5e-11;
 constexpr double largest_separation = 1e-7;
 
 void read_variance(const TomlReader& reader, const toml::node& node, Noise::Spec& spec) {
-  const std::string word = reader.string(node, "variance", "variance = \"auto\"");
-  if (word == "auto") return;
-  spec.variance = value_named<VarianceFunction>(word);
-  if (spec.variance) return;
   std::vector<std::string> names = all_names<VarianceFunction>();
   names.insert(names.begin(), "auto");
-  reader.fail(node, fmt::format("unknown variance function {}", quote(word)), "",
-              did_you_mean(word, names));
+  spec.variance =
+      value_named<VarianceFunction>(reader.one_of(node, "variance", "variance function", names));
 }
 
 void read_residuals(const TomlReader& reader, const toml::table& table, Noise::Spec& spec) {
   if (const toml::node* node = table.get("residuals")) {
-    const std::string word = reader.string(*node, "residuals", "residuals = \"normal\"");
-    if (word != "normal" && word != "student") {
-      reader.fail(*node, fmt::format("unknown distribution of the residuals {}", quote(word)), "",
-                  did_you_mean(word, {"normal", "student"}));
-    }
-    spec.student = word == "student";
+    spec.student = reader.one_of(*node, "residuals", "distribution of the residuals",
+                                 {"normal", "student"}) == "student";
   }
   const toml::node* const node = table.get("student_dof");
   if (node == nullptr) return;
-  spec.student_dof = reader.number(*node, "student_dof");
   if (!spec.student) {
     reader.fail(*node, "'student_dof' without Student's t",
                 "normal residuals have no degrees of freedom",
                 "add residuals = \"student\", or remove it");
   }
-  if (spec.student_dof < 1.0 || spec.student_dof > largest_student_dof) {
-    reader.fail(*node, fmt::format("student_dof = {:g}", spec.student_dof),
-                fmt::format("it has to lie between 1 and {:g}", largest_student_dof),
-                "4 is usual; residuals = \"normal\" is its limit");
-  }
+  spec.student_dof = reader.number_in(*node, "student_dof", 1.0, largest_student_dof,
+                                      "4 is usual; residuals = \"normal\" is its limit");
 }
 
 /// `setting_sd`: a number, or "estimated".
@@ -178,12 +167,8 @@ void read_setting_sd(const TomlReader& reader, const toml::table& table, Noise::
     }
     spec.every_setting = true;
   } else {
-    spec.setting_sd = reader.number(*node, "setting_sd");
-    if (*spec.setting_sd < 0.0 || *spec.setting_sd > largest_setting_sd) {
-      reader.fail(*node, fmt::format("setting_sd = {:g}", *spec.setting_sd),
-                  fmt::format("it has to lie between 0 and {:g}", largest_setting_sd),
-                  "it is an error of e: 0.01 is usual, 0 leaves it out");
-    }
+    spec.setting_sd = reader.number_in(*node, "setting_sd", 0.0, largest_setting_sd,
+                                       "it is an error of e: 0.01 is usual, 0 leaves it out");
   }
   if (spec.student && (spec.every_setting || *spec.setting_sd > 0.0)) {
     reader.fail(*node, "setting_sd beside residuals = \"student\"",
@@ -200,12 +185,7 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
   if (const toml::node* node = table.get(switch_name)) used = reader.boolean(*node, switch_name);
   const toml::node* const node = table.get(size_name);
   if (node == nullptr) return;
-  relative_sd = reader.number(*node, size_name);
-  if (relative_sd < 0.0 || relative_sd > largest_relative_sd) {
-    reader.fail(*node, fmt::format("{} = {:g}", size_name, relative_sd),
-                fmt::format("it has to lie between 0 and {:g}", largest_relative_sd),
-                "2 % is written 0.02");
-  }
+  relative_sd = reader.number_in(*node, size_name, 0.0, largest_relative_sd, "2 % is written 0.02");
   if (!used) {
     reader.fail(*node, fmt::format("'{}' is given though {} = false", size_name, switch_name),
                 "it would have no effect", "remove one of the two");
@@ -295,23 +275,11 @@ class FitReader : private TomlReader {
   void read_model(const toml::table& model) {
     allow_only(model, "[model]", fit_keys_of("model"));
     if (const toml::node* node = model.get("adhesion")) {
-      const std::string word = string(*node, "adhesion", "\"ring\"");
-      const auto law = value_named<AdhesionLaw>(word);
-      if (!law) {
-        fail(*node, fmt::format("unknown law of adhesion {}", quote(word)), "",
-             did_you_mean(word, all_names<AdhesionLaw>()));
-      }
-      fit_.spec.adhesion = *law;
+      fit_.spec.adhesion = one_of<AdhesionLaw>(*node, "adhesion", "law of adhesion");
     }
     if (const toml::node* node = model.get("separation")) read_separation(*node);
     if (const toml::node* node = model.get("adhesion_damping_phase")) {
-      const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
-      const auto phase = value_named<AdhesionDampingPhase>(word);
-      if (!phase) {
-        fail(*node, fmt::format("unknown phase {}", quote(word)), "",
-             did_you_mean(word, all_names<AdhesionDampingPhase>()));
-      }
-      fit_.spec.phase = *phase;
+      fit_.spec.phase = one_of<AdhesionDampingPhase>(*node, "adhesion_damping_phase", "phase");
     }
     if (const toml::node* node = model.get("mixed_sizes")) {
       fit_.spec.mixed_sizes = boolean(*node, "mixed_sizes");
@@ -326,15 +294,10 @@ class FitReader : private TomlReader {
   }
 
   void read_loss(const toml::node& node) {
-    std::string& loss = fit_.spec.loss;
-    loss = string(node, "loss", "loss = \"auto\"");
     std::vector<std::string> known = dry_losses();
     known.emplace_back("auto");
-    if (std::find(known.begin(), known.end(), loss) == known.end()) {
-      fail(node, fmt::format("unknown loss of the dry contact {}", quote(loss)), "",
-           did_you_mean(loss, known));
-    }
-    if (const Mechanism* mechanism = dry_loss_mechanism(loss)) {
+    fit_.spec.loss = one_of(node, "loss", "loss of the dry contact", known);
+    if (const Mechanism* mechanism = dry_loss_mechanism(fit_.spec.loss)) {
       add_mechanism(node, std::string(mechanism->info.id));
     }
   }
@@ -346,26 +309,16 @@ class FitReader : private TomlReader {
           fmt::format("'separation' is stated with adhesion = \"{}\"", name_of(fit_.spec.adhesion)),
           "only maugis has a range of adhesion", "leave it out, or set adhesion = \"maugis\"");
     }
-    const double separation = number(node, "separation");
-    if (!(separation >= least_separation && separation <= largest_separation)) {
-      fail(node, fmt::format("'separation' is {:g} m", separation),
-           fmt::format("it has to lie between {:g} and {:g} m", least_separation,
-                       largest_separation),
-           "the distance of two surfaces at rest is 0.2 to 0.5 nm: 4e-10 is usual");
-    }
-    fit_.spec.separation = separation;
+    fit_.spec.separation =
+        number_in(node, "separation", least_separation, largest_separation,
+                  "the distance of two surfaces at rest is 0.2 to 0.5 nm: 4e-10 is usual");
   }
 
   void add_mechanism(const toml::node& item) {
-    const std::string id =
-        string(item, "mechanisms",
-               fmt::format("mechanisms = [\"{}\"]", mechanism_catalogue().front().info.id));
     std::vector<std::string> known;
     for (const Mechanism& mechanism : mechanism_catalogue()) known.emplace_back(mechanism.info.id);
-    if (find_mechanism(id) == nullptr) {
-      fail(item, fmt::format("unknown mechanism {}", quote(id)), "", did_you_mean(id, known));
-    }
-    add_mechanism(item, id);
+    string(item, "mechanisms", fmt::format("mechanisms = [\"{}\"]", known.front()));
+    add_mechanism(item, one_of(item, "mechanisms", "mechanism", known));
   }
 
   void add_mechanism(const toml::node& item, const std::string& id) {
@@ -528,13 +481,7 @@ class FitReader : private TomlReader {
     allow_only(table, "[uncertainty]", fit_keys_of("uncertainty"));
     UncertaintySpec& spec = fit_.spec.uncertainty;
     if (const toml::node* node = table.get("scheme")) {
-      const std::string word = string(*node, "scheme", "scheme = \"auto\"");
-      const std::optional<Scheme> scheme = value_named<Scheme>(word);
-      if (!scheme) {
-        fail(*node, fmt::format("unknown bootstrap scheme {}", quote(word)), "",
-             did_you_mean(word, all_names<Scheme>()));
-      }
-      spec.scheme = *scheme;
+      spec.scheme = one_of<Scheme>(*node, "scheme", "bootstrap scheme");
     }
     if (const toml::node* node = table.get("replicates"); node != nullptr && node->is_string()) {
       spec.replicates_auto = node->as_string()->get() == "auto";
@@ -597,13 +544,8 @@ class FitReader : private TomlReader {
   void read_diagnosis(const toml::table& table) {
     allow_only(table, "[diagnosis]", fit_keys_of("diagnosis"));
     if (const toml::node* node = table.get("law_error")) {
-      const double error = number(*node, "law_error");
-      if (error < 0.0 || error > 0.5) {
-        fail(*node, fmt::format("law_error = {:g}", error), "it has to lie between 0 and 0.5",
-             error > 0.5 ? fmt::format("{:g} % is written {:g}", error, error / 100.0)
-                         : std::string("0 means exact laws"));
-      }
-      fit_.spec.law_error = error;
+      fit_.spec.law_error = number_in(*node, "law_error", 0.0, largest_law_error,
+                                      "10 % is written 0.1; 0 means exact laws");
     }
   }
 

@@ -196,7 +196,7 @@ TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
   EXPECT_EQ(part.points[0].restitution, all.points[5].restitution);
   EXPECT_EQ(part.points[1].restitution, all.points[1].restitution);
   EXPECT_EQ(part.noise.scale, 0.3);
-  EXPECT_EQ(part.spec.student_dof, 7.0);
+  EXPECT_EQ(part.noise.spec.student_dof, 7.0);
   EXPECT_EQ(part.noise.sd_stated, all.noise.sd_stated);
   EXPECT_EQ(part.noise.sd_set_aside, 2);
   EXPECT_EQ(part.noise.sd_missing, 3);
