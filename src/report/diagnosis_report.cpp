@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/units.hpp"
 #include "document/html.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
@@ -15,10 +14,10 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_pairs = 8;
-constexpr std::size_t most_misfits_on_top = 2;  // figures in the answer
-constexpr std::size_t sentences_in_short = 3;   // of the answer, on the page of the fit
+constexpr std::size_t most_misfits_on_top = 2;  // figures of the misfit in the answer
+constexpr std::size_t summary_sentences = 3;    // on the page of the fit
 
-/// One parameter under one of the models.
+/// One parameter under the base or the extended model.
 struct UnderModel {
   Cell estimate, interval;
   std::string remark;
@@ -43,7 +42,8 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
   return {};
 }
 
-Cell said_of_both(const std::string& base, const std::string& extended) {
+/// The remarks on a parameter under both models.
+Cell remark_on_both(const std::string& base, const std::string& extended) {
   if (base == extended) return Sentence(base);
   if (base.empty()) return Sentence(extended + " in the extended model");
   if (extended.empty()) return Sentence(base + " in the base model");
@@ -79,7 +79,7 @@ Table misfit_table(const Diagnosis& d) {
   return table;
 }
 
-/// Single mechanisms and the best pairs, the best first.
+/// All single mechanisms and the best pairs, sorted by AICc.
 std::vector<CandidateResult> tried(const Diagnosis& d) {
   std::vector<CandidateResult> all = d.candidates;
   const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
@@ -90,17 +90,16 @@ std::vector<CandidateResult> tried(const Diagnosis& d) {
   return all;
 }
 
-/// The mechanisms that gain more than their parameters cost or answer the question, each added to
-/// the model and refitted.
+/// The candidates that decrease AICc or explain the misfit.
 Table candidates_table(const Diagnosis& d) {
   Table table;
-  table.compact = true;
   table.caption =
       say("Mechanisms added to the model, alone or in pairs. Gain: decrease of AICc. {p}: share of "
           "simulated data sets in which the best of all candidates gains as much by chance. Left: "
           "p-value of the structure that remains");
   table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
                    {"held out"},  {"left"}, {"verdict", "", true}};
+  table.compact = true;
   std::size_t others = 0;
   for (const CandidateResult& c : tried(d)) {
     if (c.delta_aicc >= 0.0 && !c.explains()) {
@@ -120,7 +119,7 @@ Table candidates_table(const Diagnosis& d) {
   return table;
 }
 
-/// What the causes in the answer mean.
+/// The meaning of the causes in the answer.
 List causes_list(const Diagnosis& d) {
   List list;
   for (const std::string& id : d.causes()) {
@@ -161,7 +160,7 @@ Table held_out_table(const Diagnosis& d) {
 Table both_models_table(const Diagnosis& d) {
   Table table;
   if (!d.extended() || !d.extended()->fit) return table;
-  const ExtendedModel& model_of = *d.extended();
+  const ExtendedModel& extension = *d.extended();
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
   table.compact = true;
   table.caption = "Parameters under both models";
@@ -170,16 +169,16 @@ Table both_models_table(const Diagnosis& d) {
                                  percent(d.spec.law_error));
   }
   table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
-  const ImpactModel& model = model_of.fit->model;
+  const ImpactModel& model = extension.fit->model;
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
     const ParameterSlot& slot = model.slots[s];
     if (slot.is_constant()) continue;
-    const UnderModel base = under_model(d.base, model_of.base_intervals, slot.label());
-    const UnderModel extended = under_model(*model_of.fit, model_of.intervals, slot.label());
-    Sentence name = parameter_words(model, s, d.datasets);
-    if (slot.parameter->unit != "1") name += " [" + unit(slot.parameter->unit) + "]";
-    table.rows.push_back({std::move(name), base.estimate, base.interval, extended.estimate,
-                          extended.interval, said_of_both(base.remark, extended.remark)});
+    const UnderModel base = under_model(d.base, extension.base_intervals, slot.label());
+    const UnderModel extended = under_model(*extension.fit, extension.intervals, slot.label());
+    table.rows.push_back(
+        {name_with_unit(parameter_words(model, s, d.datasets), slot.parameter->unit), base.estimate,
+         base.interval, extended.estimate, extended.interval,
+         remark_on_both(base.remark, extended.remark)});
   }
   return table;
 }
@@ -263,7 +262,7 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
 
 Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
   std::vector<std::string> sentences = answer_sentences(d);
-  if (sentences.size() > sentences_in_short) sentences.resize(sentences_in_short);
+  if (sentences.size() > summary_sentences) sentences.resize(summary_sentences);
   Section section{"diagnosis", "Diagnosis"};
   section.blocks = {Paragraph{strong(headline(d) + ".") +
                               Sentence(fmt::format(" {}", fmt::join(sentences, " ")))}};

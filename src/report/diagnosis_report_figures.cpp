@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
@@ -18,17 +17,17 @@ namespace recoil {
 namespace {
 
 constexpr int curve_points = 80;
-constexpr double largest_z = 6.0;  // of the colour scale
+constexpr double largest_z = 6.0;  // at the ends of the colour scale
 
 std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
   return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
 }
 
-/// How far the base model is off at every point of a dataset.
+/// The deviations of the points of a dataset from the base model.
 struct Misses {
   std::vector<double> velocities, diameters;  ///< [m/s], [size_unit]
   std::vector<double> misses;                 ///< e - e_model
-  std::vector<double> in_sd;                  ///< the same in standard deviations
+  std::vector<double> in_sd;                  ///< `misses` in standard deviations
 };
 
 std::string size_text(const Diagnosis& d, double diameter) {
@@ -66,7 +65,7 @@ plot::Axis velocity_axis_of(const Misses& misses, double margin) {
   return axis;
 }
 
-/// Ticks at the diameters themselves, where they are few and far enough apart to be read.
+/// Ticks at the diameters; empty if there are many. Diameters close to the previous tick have none.
 std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range range) {
   constexpr std::size_t most = 8;
   const double nearest = std::pow(range.upper / range.lower, 0.07);
@@ -80,7 +79,7 @@ std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range ra
   return ticks;
 }
 
-/// The axis of the diameters; of one diameter alone, that of the misses themselves.
+/// The axis of the diameters or, for a single diameter, of the deviations.
 plot::Axis vertical_axis(const Diagnosis& d, const Misses& misses, bool one_size) {
   plot::Axis axis;
   if (one_size) {
@@ -127,7 +126,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       "structure, a mixture indicates noise.");
 }
 
-/// The base curve and the extended one of one diameter.
+/// The curves of the base and the extended model for one diameter.
 struct TwoCurves {
   std::vector<double> velocity, base, extended;
 };
@@ -150,7 +149,7 @@ TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, st
   return curves;
 }
 
-/// The axis of e begins at nothing, unless all points lie high above.
+/// The axis of e. It begins at 0 unless all points are above 0.7.
 plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
   double top = 0.0;
   double bottom = 1.0;

@@ -1,4 +1,4 @@
-// From a Diagnosis to the contents of diagnosis.json.
+// Converts a Diagnosis to diagnosis.json.
 #include <algorithm>
 
 #include "core/units.hpp"
@@ -34,7 +34,7 @@ DiagnosisFile::Misfit misfit_of(const Diagnosis& d) {
   return out;
 }
 
-/// @param most how many are listed
+/// @param most largest number of listed candidates
 std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
                                                     std::size_t most) {
   std::vector<DiagnosisFile::Candidate> list;

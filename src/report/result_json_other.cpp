@@ -10,9 +10,11 @@
 
 namespace recoil {
 
+Json result_head() { return {{"format_version", format_version}, {"recoil_version", version()}}; }
+
 namespace {
 
-/// How many of how many, and the 95 % limits of the share (Wilson).
+/// A share `part` / `whole` with its 95 % limits (Wilson 1927).
 Json share_json(int part, int whole) {
   Json limits = nullptr;
   if (whole > 0) {
@@ -43,9 +45,7 @@ Json row_json(const CoverageRow& row) {
 
 std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
                           const CoverageOptions& options, const std::vector<Dataset>& datasets) {
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["fit"] = {{"id", spec.id}, {"sha256", spec.sha256}};
   out["datasets"] = Json::array();
   for (const Dataset& dataset : datasets) {
@@ -112,9 +112,7 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
                             const SimulatedImpact& s, const std::string& fit,
                             const std::string& values) {
   const Dataset& dataset = datasets[s.asked.dataset];
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["fit"] = fit;
   out["dataset"] = dataset_json(dataset);
   out["values_from"] = values;
