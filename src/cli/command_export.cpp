@@ -47,7 +47,7 @@ void set_values(Fitted& fitted, const StandardError& std_error_of) {
   }
 }
 
-Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
+Fitted fit_points(FitInputs inputs, const ExportOptions& options, bool bands) {
   const AnalysisOptions resolved = options.analysis.resolved();
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
   Fitted out;
@@ -73,7 +73,7 @@ Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
+Fitted read_fitted_values(FitInputs inputs, const ExportOptions& options) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values =
@@ -172,8 +172,8 @@ void run_export(const ExportOptions& options) {
   const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
   require_rebounds(inputs.datasets[d]);
   Fitted fitted = options.parameters.empty()
-                      ? fitted_now(std::move(inputs), options, target == ExportTarget::table)
-                      : fitted_before(std::move(inputs), options);
+                      ? fit_points(std::move(inputs), options, target == ExportTarget::table)
+                      : read_fitted_values(std::move(inputs), options);
   const Dataset& dataset = fitted.datasets[d];
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;

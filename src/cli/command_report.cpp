@@ -14,6 +14,8 @@
 #include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "document/html.hpp"
+#include "plot/draw.hpp"
 #include "report/comparison_report.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
@@ -152,8 +154,11 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   at_once(
       flags.threads, [&] { page = fit_html(analysis, &diagnosis, entry.diagnosis_page); },
       [&] { diagnosis_page = diagnosis_html(diagnosis); },
-      [&] { entry.picture = thumbnail(analysis); });
-  entry.picture_csv = thumbnail_csv(analysis);
+      [&] {
+        const plot::Picture picture = thumbnail(analysis);
+        entry.picture = plot::draw_svg(picture);
+        entry.picture_csv = plot::csv_of(picture);
+      });
   entry.fit_json = fit_json(analysis);
   entry.diagnosis_json = diagnosis_json(diagnosis);
   write_whole_files({{files.page, page},
@@ -197,7 +202,7 @@ void report(const ReportOptions& options) {
     print_text("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
   }
-  write_whole_file(out / "index.html", html_index(entries));
+  write_whole_file(out / "index.html", html_page(index_document(entries)));
   print_text("{}: written\n", (out / "index.html").string());
 }
 

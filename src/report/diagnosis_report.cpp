@@ -211,9 +211,9 @@ Table next_experiment_table(const Diagnosis& d) {
   table.caption =
       "Experiments with the fewest impacts: impacts that make the expected odds between two causes "
       "99 to 1";
-  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
-                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
-                   {say("difference in {e}")}};
+  table.columns = {
+      {"action", "", true},    {"impacts"},        {say("{d}"), sizes.name},  {say("{V}"), "m/s"},
+      {"separates", "", true}, {"from", "", true}, {say("difference in {e}")}};
   for (const NextExperiment& next : several->experiments) {
     table.rows.push_back(
         {Sentence(doing_words(next)), whole(next.events), Sentence(size_text(next.diameter, sizes)),
@@ -276,23 +276,21 @@ Document diagnosis_document(const Diagnosis& d) {
 }
 
 std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t columns) {
-  std::string answer, details;
-  for (const Section& section : diagnosis_sections(d)) {
-    (section.importance == Importance::answer ? answer : details) +=
-        terminal_text(section, columns);
-  }
+  std::vector<Section> sections = diagnosis_sections(d);
   if (!d.spec.file.empty()) {
-    answer += terminal_text(
+    const std::string file = d.spec.file.generic_string();
+    const auto first_detail =
+        std::find_if(sections.begin(), sections.end(),
+                     [](const Section& one) { return one.importance == Importance::detail; });
+    sections.insert(
+        first_detail,
         shown_section(
             "next", "",
-            {Paragraph{
-                say("Next: {} (a page, and the extended model as a fit file), {} (every "
-                    "cause tried).",
-                    code(fmt::format("recoil diagnose {} --out DIR", d.spec.file.generic_string())),
-                    code("--verbose"))}}),
-        columns);
+            {Paragraph{say("Next: {} (a page, and the extended model as a fit "
+                           "file), {} (every cause tried).",
+                           code("recoil diagnose " + file + " --out DIR"), code("--verbose"))}}));
   }
-  return least == Importance::answer ? answer : answer + details;
+  return terminal_text(sections, least, columns);
 }
 
 std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }

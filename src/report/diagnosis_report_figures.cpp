@@ -51,7 +51,8 @@ Misses misses_of(const Diagnosis& d, std::size_t dataset) {
   return all;
 }
 
-/// A logarithmic axis with a margin, wide enough to be read where the values hardly differ.
+/// The range of the values for a logarithmic axis. The margin is a power of the ratio of largest
+/// and smallest value, which counts as at least 1.5.
 plot::Range log_range(const std::vector<double>& values, double margin) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double factor = std::pow(std::max(*high / *low, 1.5), margin);

@@ -11,9 +11,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
-#include "document/html.hpp"
 #include "json/fit_file.hpp"
-#include "plot/draw.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
 
@@ -140,14 +138,10 @@ Section card_of(const IndexEntry& entry, const FitFile& fit) {
 
 }  // namespace
 
-std::string thumbnail(const Analysis& analysis) {
+plot::Picture thumbnail(const Analysis& analysis) {
   plot::Picture picture = restitution_overview(analysis, thumbnail_width, thumbnail_height);
   picture.name = plot::plot_name("overview-" + analysis.spec.id);  // unique on the index
-  return plot::draw_svg(picture);
-}
-
-std::string thumbnail_csv(const Analysis& analysis) {
-  return plot::csv_of(restitution_overview(analysis, thumbnail_width, thumbnail_height));
+  return picture;
 }
 
 Document index_document(const std::vector<IndexEntry>& entries) {
@@ -166,10 +160,6 @@ Document index_document(const std::vector<IndexEntry>& entries) {
     page.sections.push_back(card_of(entry, fit));
   }
   return page;
-}
-
-std::string html_index(const std::vector<IndexEntry>& entries) {
-  return html_page(index_document(entries));
 }
 
 }  // namespace recoil

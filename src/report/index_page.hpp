@@ -18,16 +18,12 @@ struct IndexEntry {
   std::string picture_csv = {};     ///< data of the picture
 };
 
-/// A small picture of e(V) as SVG, and its data as CSV.
-std::string thumbnail(const Analysis& analysis);
-std::string thumbnail_csv(const Analysis& analysis);
+/// A small picture of e(V) for the card of a fit.
+plot::Picture thumbnail(const Analysis& analysis);
 
 /// The index page with one card for each fit: provenance, verdict, picture, capture velocity and
 /// parameters.
 /// @throws InputError if a file is not the JSON of a fit or of a diagnosis
 Document index_document(const std::vector<IndexEntry>& entries);
-
-/// The file `index.html`.
-std::string html_index(const std::vector<IndexEntry>& entries);
 
 }  // namespace recoil

@@ -49,9 +49,7 @@ void set_restitution(File& file, const std::vector<Dataset>& datasets) {
   file.series_differ = std::move(entries.series);
 }
 
-/// @pre analysis.fitted.usable
-FitFile fit_file(const Analysis& analysis);
-/// The content of fit.json.
+/// The content of fit.json. @pre analysis.fitted.usable
 std::string fit_json(const Analysis& analysis);
 
 /// The content of posterior.csv, the draws of the posterior in SI units. Its columns are chain,
@@ -59,7 +57,6 @@ std::string fit_json(const Analysis& analysis);
 /// and ln prior. Empty without a posterior.
 std::string posterior_csv(const Analysis& analysis);
 
-DiagnosisFile diagnosis_file(const Diagnosis& diagnosis);
 /// The content of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 

@@ -646,7 +646,7 @@ RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
   return out;
 }
 
-FitFile fit_file(const Analysis& a) {
+std::string fit_json(const Analysis& a) {
   const FitResult& f = a.fitted;
   FitFile out;
   out.recoil_version = version();
@@ -700,7 +700,7 @@ FitFile fit_file(const Analysis& a) {
   out.warnings = plain_texts(all_warnings(a));
   out.curve = curve_of(a);
   out.residuals = residuals_of(a);
-  return out;
+  return text_of(out, 1);
 }
 
 std::string posterior_csv(const Analysis& a) {
@@ -731,7 +731,5 @@ std::string posterior_csv(const Analysis& a) {
   }
   return text;
 }
-
-std::string fit_json(const Analysis& analysis) { return text_of(fit_file(analysis), 1); }
 
 }  // namespace recoil

@@ -84,7 +84,7 @@ Json energy_json(const SimulatedImpact& s) {
 Json contact_json(const SimulatedImpact& s) {
   const bool captured = s.impact.outcome == ImpactOutcome::captured;
   const double e = std::sqrt(std::max(s.impact.restitution_squared, 0.0));
-  const auto of_whole = [&](double value) { return s.yields ? Json() : number_or_null(value); };
+  const auto if_elastic = [&](double value) { return s.yields ? Json() : number_or_null(value); };
   return {{"incident_velocity", s.conditions.velocity},
           {"diameter_um", s.diameter / units::um},
           {"restitution", captured ? Json(0.0) : number_or_null(e)},
@@ -92,9 +92,9 @@ Json contact_json(const SimulatedImpact& s) {
           {"stiffness_K_Pa", number_or_null(s.conditions.stiffness)},
           {"f0_N_per_m", number_or_null(s.conditions.adhesion_force)},
           {"density_kg_per_m3", number_or_null(s.density)},
-          {"contact_time_s", of_whole(s.impact.contact_time * s.scales.time)},
-          {"penetration_m", of_whole(s.impact.penetration_max * s.scales.length)},
-          {"largest_push_N", of_whole(s.impact.force_compression * s.scales.force)},
+          {"contact_time_s", if_elastic(s.impact.contact_time * s.scales.time)},
+          {"penetration_m", if_elastic(s.impact.penetration_max * s.scales.length)},
+          {"largest_push_N", if_elastic(s.impact.force_compression * s.scales.force)},
           {"largest_pull_N", number_or_null(s.impact.force_tension * s.scales.force)},
           {"energy_J", energy_json(s)}};
 }

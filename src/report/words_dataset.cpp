@@ -166,33 +166,29 @@ std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {
 }
 
 std::string validity_sentence(const Validity& v) {
-  switch (v.quantity) {
-    case ValidityQuantity::contact_radius:
-      return fmt::format(
-          "the contact grows to {:.2g} of the sphere's radius ({}); Hertz' theory holds up to "
-          "about {:g}",
-          v.value, impact_words(v), v.limit);
-    case ValidityQuantity::pressure_modulus:
-      return fmt::format(
-          "the peak pressure is {:.2g} E* ({}); no solid withstands more than about {:g} E*",
-          v.value, impact_words(v), v.limit);
-    case ValidityQuantity::pressure_yield:
-      return fmt::format(
-          "the peak pressure is {:.2g} times the yield pressure of {}, {} ({}); above {:g} the "
-          "contact yields, which the base model ignores",
-          v.value, pressure_words(v.yield_pressure),
-          v.yield_stated ? "by the stated strength" : "taken as 0.03 E of the softer body",
-          impact_words(v), v.limit);
-    case ValidityQuantity::tabor:
-      return fmt::format("the Tabor parameter is {:.2g} ({}): {}", v.value,
-                         diameter_words(v.diameter), tabor_words(v));
-    case ValidityQuantity::wave_transits:
-      return fmt::format(
-          "a wave crosses the sphere {:.2g} times in one contact ({}); below {:g} the contact is "
-          "not quasi-static",
-          v.value, impact_words(v), v.limit);
-  }
-  return "";
+  using enum ValidityQuantity;
+  static constexpr Phrase<ValidityQuantity> patterns[] = {
+      {contact_radius,
+       "the contact grows to {value:.2g} of the sphere's radius ({impact}); Hertz' theory holds up "
+       "to about {limit:g}"},
+      {pressure_modulus,
+       "the peak pressure is {value:.2g} E* ({impact}); no solid withstands more than about "
+       "{limit:g} E*"},
+      {pressure_yield,
+       "the peak pressure is {value:.2g} times the yield pressure of {yield}, {source} ({impact}); "
+       "above {limit:g} the contact yields, which the base model ignores"},
+      {tabor, "the Tabor parameter is {value:.2g} ({diameter}): {tabor}"},
+      {wave_transits,
+       "a wave crosses the sphere {value:.2g} times in one contact ({impact}); below {limit:g} the "
+       "contact is not quasi-static"}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, v.quantity).words),
+                     fmt::arg("value", v.value), fmt::arg("limit", v.limit),
+                     fmt::arg("impact", impact_words(v)),
+                     fmt::arg("diameter", diameter_words(v.diameter)),
+                     fmt::arg("yield", pressure_words(v.yield_pressure)),
+                     fmt::arg("source", v.yield_stated ? "by the stated strength"
+                                                       : "taken as 0.03 E of the softer body"),
+                     fmt::arg("tabor", tabor_words(v)));
 }
 
 std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
@@ -215,7 +211,7 @@ Table validity_table(const std::vector<Validity>& validity) {
   Table table;
   if (validity.empty()) return table;
   table.caption = "where the model holds:";
-  table.columns = {{}, {"value"}, {"good", "", true}};
+  table.columns = {{}, {"value"}, {"valid", "", true}};
   for (const Validity& one : validity) {
     table.rows.push_back({Sentence(short_name(one.quantity)), Number{one.value, significant(3)},
                           Sentence(fmt::format("{} {:g}{}", one.limit_is_least() ? "from" : "up to",

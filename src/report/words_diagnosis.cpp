@@ -642,8 +642,8 @@ std::vector<std::string> impossible_words(const Diagnosis& d) {
   const std::vector<std::string> rivals = d.rivals();
   const std::vector<std::string> resembles = d.resembles();
   for (const CandidateResult& c : d.candidates) {
-    const bool said = !resembles.empty() && resembles.front() == c.candidate.name();
-    if (said || c.plausible || c.delta_aicc >= answer) continue;
+    const bool in_answer = !resembles.empty() && resembles.front() == c.candidate.name();
+    if (in_answer || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
     const bool listed = std::find(rivals.begin(), rivals.end(), c.candidate.name()) != rivals.end();
     words.push_back(

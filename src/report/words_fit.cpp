@@ -379,19 +379,14 @@ std::string noise_words(const FitResult& fitted) {
 }
 
 std::string scale_words(VarianceFunction function, double scale) {
-  switch (function) {
-    case VarianceFunction::proportional:
-      return fmt::format("sd(e) = {:.3g} e", scale);
-    case VarianceFunction::capture:
-      return fmt::format("sd(e^2) = {:.3g}", scale);
-    case VarianceFunction::steep:
-      return fmt::format("sd(e) = {:.3g} exp(2 (V* / V)^2)", scale);
-    case VarianceFunction::constant:
-      return fmt::format("sd(e) = {:.3g}", scale);
-    case VarianceFunction::stated:
-      break;
-  }
-  return "sd(e) as stated";
+  using enum VarianceFunction;
+  static constexpr Phrase<VarianceFunction> patterns[] = {
+      {stated, "sd(e) as stated"},
+      {constant, "sd(e) = {:.3g}"},
+      {proportional, "sd(e) = {:.3g} e"},
+      {capture, "sd(e^2) = {:.3g}"},
+      {steep, "sd(e) = {:.3g} exp(2 (V* / V)^2)"}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, function).words), scale);
 }
 
 Sentence two_point_words(const FitResult& fitted, std::size_t dataset,

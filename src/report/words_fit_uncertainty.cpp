@@ -106,28 +106,22 @@ std::string known_to(double relative_sd) {
 
 /// Why a parameter is poorly determined, as the predicate of a sentence.
 std::string hindrance_words(const ParameterIdentifiability& found, const Interval& interval) {
-  switch (*found.hindrance) {
-    case Hindrance::no_interval:
-      return "has no interval: " + missing_words(interval);
-    case Hindrance::reaches_upper_bound:
-      return "reaches its upper bound";
-    case Hindrance::reaches_lower_bound:
-      return "reaches its lower bound";
-    case Hindrance::rests_on_bound:
-      return "is at its bound";
-    case Hindrance::consistent_with_zero:
-      return "is consistent with zero";
-    case Hindrance::large_error:
-      return fmt::format("is known only to {:.0f} %", 100.0 * found.relative_error);
-    case Hindrance::uncertain_error:
-      return fmt::format(
-          "has an error of {:.0f} %, or up to {:.0f} % because the noise is estimated",
-          100.0 * found.relative_error, 100.0 * found.largest_relative_error);
-    case Hindrance::undecided_noise:
-    case Hindrance::wide_spread:
-      break;  // parameter_sentences handles these
-  }
-  return "";
+  using enum Hindrance;
+  static constexpr Phrase<Hindrance> patterns[] = {
+      {no_interval, "has no interval: {why}"},
+      {reaches_upper_bound, "reaches its upper bound"},
+      {reaches_lower_bound, "reaches its lower bound"},
+      {rests_on_bound, "is at its bound"},
+      {consistent_with_zero, "is consistent with zero"},
+      {large_error, "is known only to {error:.0f} %"},
+      {uncertain_error,
+       "has an error of {error:.0f} %, or up to {largest:.0f} % because the noise is estimated"},
+      {undecided_noise, ""},  // parameter_sentences handles this and the next one
+      {wide_spread, ""}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, *found.hindrance).words),
+                     fmt::arg("why", missing_words(interval)),
+                     fmt::arg("error", 100.0 * found.relative_error),
+                     fmt::arg("largest", 100.0 * found.largest_relative_error));
 }
 
 Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& uncertainty) {

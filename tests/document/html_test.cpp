@@ -70,6 +70,16 @@ TEST(Html, ATableDropsColumnsThatSayNothing) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(Html, LabelsOfStackedRowsHaveTheMarkupOfTheHeadings) {
+  Table table;
+  table.columns = {{"calibration"}, {symbol("C_H"), "s/m"}, {say("rms of {e}")}, {"points"}};
+  table.rows = {{"two points", Number{1.0}, Number{2.0}, Number{3.0}}};
+  const std::string html = html_of(std::vector<Block>{table});
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\"><i>C</i><sub>H</sub> [s/m]</th>"));
+  EXPECT_THAT(html, HasSubstr("<td><span class=\"label\"><i>C</i><sub>H</sub> [s/m]</span>1</td>"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"label\">rms of <i>e</i></span>2</td>"));
+}
+
 TEST(Html, ContentsListWhatIsThere) {
   Document document;
   document.title = document.foot = "t";
