@@ -463,8 +463,8 @@ window.recoil = (() => {
       const capture = captureVelocity(diameter, values);
       path.setAttribute("d", curvePath(panel, frame, diameter, values, capture));
       svg.append(path);
-      const stays = capture === 0 ? "every sphere comes back" : isNaN(capture)
-          ? "no sphere comes back" : "capture below V* = " + shown(capture) + " m/s";
+      const stays = capture === 0 ? "no sphere is captured" : isNaN(capture)
+          ? "every sphere is captured" : "capture below V* = " + shown(capture) + " m/s";
       result.textContent = "Dash-dotted: " + stays + "; chi2 of the " + panel.points.length +
           " points shown is " + shown(misfit(panel, diameter, values)) + ", under the fit " +
           shown(panel.chi2) + ".";

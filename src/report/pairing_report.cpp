@@ -152,10 +152,11 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   std::vector<std::pair<Sentence, Cell>> entries = {
       {"passages", say("{} towards the surface, {} away from it", pairs.down, pairs.up)},
       {"measuring plane", plane_words(pairs)},
-      {"impacts", say("{} pairs; {:.2f} % are correct (estimate: {} of {} foreign passages found a "
-                      "partner, and neighbours may have been exchanged)",
-                      pairs.impacts.size(), 100.0 * pairs.purity(),
-                      std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
+      {"impacts",
+       say("{} pairs, of which an estimated {:.2f} % are correct ({} of {} decoy passages found a "
+           "partner; possible exchanges between neighbours are included)",
+           pairs.impacts.size(), 100.0 * pairs.purity(),
+           std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
       {"later", later_words(pairs)},
       {"threshold", threshold_words(table, pairs)},
       {"angle", angle_words(table, pairs)}};

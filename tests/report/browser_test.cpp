@@ -73,7 +73,7 @@ TEST_F(Browser, ShowsThePageWithoutScript) {
   EXPECT_EQ(
       open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 6, {"--without-script"}),
       1)
-      << "what only a script can do is not there";
+      << "a page without its script must not show links that need it";
 }
 
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(fit_html(sample::two_datasets()), 11), 0); }

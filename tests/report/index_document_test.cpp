@@ -51,7 +51,7 @@ TEST(Index, HasACardPerFit) {
     EXPECT_EQ(figures_of(card).size(), 1U);
     EXPECT_EQ(support::tables_of(card).size(), 1U);
   }
-  EXPECT_EQ(index.foreword.size(), 3U) << "a sentence, and what a reconstruction and measured mean";
+  EXPECT_EQ(index.foreword.size(), 3U) << "an introduction and banners for two provenances";
   EXPECT_NO_THROW(html_page(index_document({})));
 }
 
@@ -84,7 +84,7 @@ TEST(Index, SaysTheVerdictOfTheDiagnosisInWordsAndByASign) {
   const std::set<std::string> signs = {named.sign, rivals.sign,
                                        remark(R"({"verdict": "adequate"})").sign,
                                        remark(R"({"verdict": "unexplained"})").sign};
-  EXPECT_EQ(signs.size(), 4U) << "the signs differ, whatever the colours";
+  EXPECT_EQ(signs.size(), 4U) << "the verdicts have different signs";
   EXPECT_TRUE(remark("").sign.empty());
 }
 
