@@ -18,13 +18,13 @@ constexpr std::size_t most_misfits_on_top = 2;  // figures of the misfit in the 
 constexpr std::size_t summary_sentences = 3;    // on the page of the fit
 
 /// One parameter under the base or the extended model.
-struct UnderModel {
+struct FittedParameter {
   Cell estimate, interval;
   std::string remark;
 };
 
-UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
-                       const std::string& label) {
+FittedParameter fitted_parameter(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
+                                 const std::string& label) {
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
     if (!fitted.model.slots[j].free) {
@@ -33,7 +33,7 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
               followed_in(fitted.model, j) ? "follows the materials" : "fixed"};
     }
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
-    UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
+    FittedParameter found{Number{fitted.theta[j], significant(4), error}, {}, ""};
     if (fitted.at_bound[j]) found.remark = "at its bound";
     if (j < intervals.size())
       found.interval = interval_cell(recommended_interval(intervals[j]), padded(3));
@@ -80,7 +80,7 @@ Table misfit_table(const Diagnosis& d) {
 }
 
 /// All single mechanisms and the best pairs, sorted by AICc.
-std::vector<CandidateResult> tried(const Diagnosis& d) {
+std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   std::vector<CandidateResult> all = d.candidates;
   const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
   all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
@@ -101,7 +101,7 @@ Table candidates_table(const Diagnosis& d) {
                    {"held out"},  {"left"}, {"verdict", "", true}};
   table.compact = true;
   std::size_t others = 0;
-  for (const CandidateResult& c : tried(d)) {
+  for (const CandidateResult& c : sorted_candidates(d)) {
     if (c.delta_aicc >= 0.0 && !c.explains()) {
       ++others;
       continue;
@@ -173,8 +173,9 @@ Table both_models_table(const Diagnosis& d) {
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
     const ParameterSlot& slot = model.slots[s];
     if (slot.is_constant()) continue;
-    const UnderModel base = under_model(d.base, extension.base_intervals, slot.label());
-    const UnderModel extended = under_model(*extension.fit, extension.intervals, slot.label());
+    const FittedParameter base = fitted_parameter(d.base, extension.base_intervals, slot.label());
+    const FittedParameter extended =
+        fitted_parameter(*extension.fit, extension.intervals, slot.label());
     table.rows.push_back(
         {name_with_unit(parameter_words(model, s, d.datasets), slot.parameter->unit), base.estimate,
          base.interval, extended.estimate, extended.interval,

@@ -20,7 +20,7 @@ Cell number_at(const std::vector<double>& values, std::size_t i, const Notation&
 
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
-Sentence labelled(const Analysis& a, std::size_t slot) {
+Sentence label_with_unit(const Analysis& a, std::size_t slot) {
   return name_with_unit(parameter_words(a.fitted.model, slot, a.datasets),
                         a.fitted.model.slots[slot].parameter->unit);
 }
@@ -147,7 +147,7 @@ Table parameters_table(const Analysis& a) {
                  : words_of_cell(ends) + Sentence(", " + remark);
     }
     table.rows.push_back(
-        {labelled(a, s),
+        {label_with_unit(a, s),
          flat ? Cell() : Cell(Number{acting_value(f.model, f.theta, s), significant(4), error}),
          std::move(ends)});
   }
@@ -197,7 +197,7 @@ Table posterior_table(const Analysis& a) {
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const PosteriorMarginal& m = found.parameters[j];
     if (!a.fitted.model.slots[j].moves()) continue;
-    table.rows.push_back({labelled(a, j), Number{m.mean}, Number{m.sd, significant(2)},
+    table.rows.push_back({label_with_unit(a, j), Number{m.mean}, Number{m.sd, significant(2)},
                           interval_cell(m.interval), Number{m.check.r_hat, fixed(4)},
                           Number{m.check.bulk, fixed(0)}, Number{m.check.tail, fixed(0)}});
   }

@@ -342,13 +342,13 @@ std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
   const std::string impacts =
       fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
                   diameter_words(next.diameter), next.velocity);
-  const std::string apart = fmt::format(
+  const std::string difference = fmt::format(
       "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
       next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
   if (next.kind == ExperimentKind::condition) {
-    return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, apart);
+    return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, difference);
   }
-  return fmt::format("To decide, measure {}: {}.", impacts, apart);
+  return fmt::format("To decide, measure {}: {}.", impacts, difference);
 }
 
 std::string dominant_point_words(const Diagnosis& d) {

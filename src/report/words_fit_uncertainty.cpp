@@ -96,7 +96,7 @@ std::string suspect_words(const FailedReplicates::Suspect& suspect, Scheme schem
 // ---- identifiability ---------------------------------------------------------------------------
 
 /// A relative error in words: "2.1 %", or "a factor of 3" for a large one.
-std::string known_to(double relative_sd) {
+std::string precision_words(double relative_sd) {
   constexpr double largest_percentage = 0.5;
   constexpr double largest_factor = 7.0;  // ln of a factor of 1100
   if (!(relative_sd < largest_factor)) return "nothing at all";
@@ -161,10 +161,10 @@ Sentences correlation_sentences(const FitResult& fitted, const Identifiability& 
   }
   const auto& directions = found.information.directions;
   if (found.correlated.empty() || directions.size() < 2) return sentences;
-  sentences.push_back(
-      say("the points determine {} to {}, but {} only to {}",
-          direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
-          direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
+  sentences.push_back(say(
+      "the points determine {} to {}, but {} only to {}",
+      direction_words(fitted, directions.front()), precision_words(directions.front().relative_sd),
+      direction_words(fitted, directions.back()), precision_words(directions.back().relative_sd)));
   return sentences;
 }
 
@@ -178,8 +178,8 @@ Sentences reach_sentences(const FitResult& fitted, const Identifiability& found)
   if (!found.more_points || fitted.covariance.empty()) return sentences;
   Sentences gains;
   for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
-    gains.push_back(
-        say("{} to {} instead of {}", label_of(fitted.model, slot), known_to(then), known_to(now)));
+    gains.push_back(say("{} to {} instead of {}", label_of(fitted.model, slot),
+                        precision_words(then), precision_words(now)));
   }
   if (gains.empty()) return sentences;
   const PlannedPoints& plan = found.information.plans.front();
