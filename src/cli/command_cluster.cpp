@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 /// A command that runs in shards.
 struct ClusterJob {
-  std::string system;  ///< that starts the shards: "slurm" or "parallel"
+  std::string system;  ///< starts the shards: "slurm" or "parallel"
   std::size_t shards = 1;
   std::string out;
   int cpus = 1;                    ///< of each shard
   std::string time = "01:00:00";   ///< limit of each shard
-  fs::path recoil = {};            ///< the program, as every machine finds it
-  fs::path where = {};             ///< the folder in which the command is given
-  fs::path folder = {};            ///< of parts, scripts and results, absolute
+  fs::path recoil = {};            ///< the program
+  fs::path where = {};             ///< the working directory of the command
+  fs::path folder = {};            ///< absolute path of parts, scripts and results
   std::vector<std::string> words;  ///< "fit", "my.toml", ...
 };
 
@@ -184,7 +184,7 @@ std::vector<std::string> words_of_job(std::vector<std::string> words) {
   return words;
 }
 
-/// Checks the command and its files now, so that not every shard reports a mistake.
+/// Checks the command and its files before the shards start.
 void require_valid(const std::vector<std::string>& words) {
   for (const char* own : {"--shard", "--out", "--threads"}) {
     if (std::any_of(words.begin(), words.end(), [own](const std::string& word) {
@@ -205,7 +205,7 @@ void require_valid(const std::vector<std::string>& words) {
   }
 }
 
-// Slurm sends its signal before the limit up to a minute early, and the shard needs some time, too.
+// Slurm may send its signal up to a minute early, and a shard needs time for its work.
 constexpr long shortest_time = 600;  // [s]
 
 std::string complaint_about_time(const std::string& text) {

@@ -5,7 +5,6 @@
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/statistics.hpp"
@@ -22,16 +21,16 @@ struct Options : CommonFlags {
   ShardFlags shards;
 };
 
-/// Everything that is prepared before the first data set is simulated.
+/// The inputs of the simulation.
 struct Prepared {
   FitSpec spec;
   std::vector<Dataset> datasets;
   CoverageOptions coverage;
   CoverageTruth truth;
-  Origin origin;  ///< of kept rows and parts
+  Origin origin;  ///< identifies kept rows and parts
 };
 
-/// Returns a pointer, because the truth may refer to its specification.
+/// @returns a pointer, because `truth` may refer to `spec`
 std::unique_ptr<Prepared> prepare(const Options& options) {
   auto ready = std::make_unique<Prepared>();
   FitInputs inputs = load_inputs(options.fit_file);
@@ -56,12 +55,6 @@ std::string percentage(int part, int whole) {
                      100.0 * limits.upper);
 }
 
-std::string truth_words(TruthOrigin origin) {
-  return origin == TruthOrigin::recipe
-             ? "truth and noise from the recipe, with a different seed for each"
-             : "the fit's own estimate as truth, simulated independently of the fitter";
-}
-
 /// The coverage of one fit as a Markdown table, with a description of the simulation.
 std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
                               const CoverageOptions& options) {
@@ -69,9 +62,12 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
       "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
       "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
       "the 95 % limits of each share (Wilson).\n\n",
-      spec.id, result.datasets, truth_words(result.truth_origin), 100.0 * options.uncertainty.level,
-      options.uncertainty.replicates, options.uncertainty.seed, result.failed,
-      result.refits_failed);
+      spec.id, result.datasets,
+      result.truth_origin == TruthOrigin::recipe
+          ? "truth and noise from the recipe, with a different seed for each"
+          : "the fit's own estimate as truth, simulated independently of the fitter",
+      100.0 * options.uncertainty.level, options.uncertainty.replicates, options.uncertainty.seed,
+      result.failed, result.refits_failed);
   text +=
       "| parameter | truth | called well determined | interval | contains the truth | where "
       "well determined "

@@ -27,14 +27,15 @@ struct DiagnoseFlags : CommonFlags {
   }
 };
 
-/// The origin of the calibration's data sets.
+/// Identifies the rows of the calibration.
 Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs,
                              const Calibration& calibration) {
   return flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed,
                              calibration.pieces(), calibration.digits());
 }
 
-/// Measures the error rates of the diagnosis for the design; a shard only runs its pieces.
+/// Measures the error rates of the diagnosis for the design and sets `diagnosis.own_design`. A
+/// shard only runs its pieces.
 /// @returns the rows to keep until the result is written; null for a shard
 std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInputs& inputs,
                                         Diagnosis& diagnosis) {
@@ -79,8 +80,8 @@ std::filesystem::path result_in(const std::filesystem::path& folder) {
   return folder / "diagnosis.json";
 }
 
-/// The finished pieces of an earlier run of the diagnosis. For a merge they are the data sets of
-/// the calibration, unless the parts belong to the rates.
+/// The finished rows of an earlier run of the diagnosis. For a merge these are the rows of the
+/// calibration; there are none if the parts belong to the rates.
 std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
   if (flags.out.empty() || (flags.shards.merging() && flags.rates > 0)) {
     return std::make_shared<KeptRows>();

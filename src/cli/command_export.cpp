@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/units.hpp"
-#include "document/terminal.hpp"
+#include "document/sentence.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "export/files.hpp"
 #include "export/table.hpp"
@@ -27,7 +27,7 @@ struct ExportOptions : CommonFlags {
   bool stock = false;
 };
 
-/// A model with its fitted values and their source.
+/// A model with its fitted values.
 struct Fitted {
   ImpactModel model;
   std::vector<double> theta;
@@ -37,7 +37,17 @@ struct Fitted {
   ExportSource source;
 };
 
-Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
+/// Copies the values to `fitted.source`. `std_error_of(s)` is the standard error of slot s.
+template <class StandardError>
+void set_values(Fitted& fitted, const StandardError& std_error_of) {
+  for (std::size_t s = 0; s < fitted.theta.size(); ++s) {
+    const ParameterSlot& slot = fitted.model.slots[s];
+    fitted.source.values.push_back({slot.label(), std::string(slot.parameter->unit),
+                                    fitted.theta[s], slot.free, std_error_of(s)});
+  }
+}
+
+Fitted fit_points(FitInputs inputs, const ExportOptions& options, bool bands) {
   const AnalysisOptions resolved = options.analysis.resolved();
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
   Fitted out;
@@ -49,13 +59,10 @@ Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
   out.model = analysis.fitted.model;
   out.theta = analysis.fitted.theta;
   out.source.parameters = "fitted by all of its points";
-  for (std::size_t s = 0; s < out.theta.size(); ++s) {
-    const ParameterSlot& slot = out.model.slots[s];
-    ExportedParameter value = {slot.label(), std::string(slot.parameter->unit), out.theta[s],
-                               slot.free, std::nullopt};
-    if (analysis.fitted.std_error[s] > 0.0) value.std_error = analysis.fitted.std_error[s];
-    out.source.values.push_back(std::move(value));
-  }
+  set_values(out, [&](std::size_t s) {
+    const double error = analysis.fitted.std_error[s];
+    return error > 0.0 ? std::optional(error) : std::nullopt;
+  });
   out.source.rmse = analysis.fitted.rmse;
   if (analysis.fitted.noise_verdict == NoiseVerdict::exceeded) {
     out.source.p_value = analysis.fitted.p_value;
@@ -66,18 +73,14 @@ Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
+Fitted read_fitted_values(FitInputs inputs, const ExportOptions& options) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values =
       take_fitted_values(out.model, inputs.datasets, options.parameters);
   out.theta = out.model.initial();
   out.source.parameters = "from " + options.parameters;
-  for (std::size_t s = 0; s < out.theta.size(); ++s) {
-    const ParameterSlot& slot = out.model.slots[s];
-    out.source.values.push_back({slot.label(), std::string(slot.parameter->unit), out.theta[s],
-                                 slot.free, values[s].std_error});
-  }
+  set_values(out, [&](std::size_t s) { return values[s].std_error; });
   out.source.rmse = root_mean_square(out.model, out.theta, gather(inputs.datasets, inputs.spec));
   out.datasets = std::move(inputs.datasets);
   return out;
@@ -94,7 +97,7 @@ void require_rebounds(const Dataset& dataset) {
                    "measure faster impacts");
 }
 
-/// The stated range, or that of the points.
+/// The requested diameter and velocities, or by default those of the points.
 ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, std::size_t index) {
   ExportRequest request;
   request.dataset = index;
@@ -169,8 +172,8 @@ void run_export(const ExportOptions& options) {
   const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
   require_rebounds(inputs.datasets[d]);
   Fitted fitted = options.parameters.empty()
-                      ? fitted_now(std::move(inputs), options, target == ExportTarget::table)
-                      : fitted_before(std::move(inputs), options);
+                      ? fit_points(std::move(inputs), options, target == ExportTarget::table)
+                      : read_fitted_values(std::move(inputs), options);
   const Dataset& dataset = fitted.datasets[d];
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;

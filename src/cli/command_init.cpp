@@ -64,8 +64,8 @@ std::string ask_for_material(const std::string& which, bool density) {
   return words;
 }
 
-/// Asks for missing options. Without a terminal, import_points reports them.
-void complete(InitOptions& options) {
+/// Asks for missing options on a terminal. Otherwise `import_points` reports them.
+void ask_for_missing(InitOptions& options) {
   if (isatty(STDIN_FILENO) == 0) return;
   if (options.like.empty()) {
     if (options.particle.empty()) options.particle = ask_for_material("the spheres", true);
@@ -88,7 +88,7 @@ void complete(InitOptions& options) {
   }
 }
 
-/// The map of --map for the columns of the file that have a known name, in the usual units.
+/// A value of --map for the columns with known names, in default units.
 std::vector<std::string> map_of(const std::string& csv) {
   static const std::vector<std::pair<std::string, std::string>> known = {
       {"series", ""},          {"diameter", ":um"},           {"diameter_sd", ":um"},
@@ -104,7 +104,7 @@ std::vector<std::string> map_of(const std::string& csv) {
   return map;
 }
 
-/// Points computed from the model, as an example to be replaced.
+/// Example points, computed from the model.
 std::string example_points(const Dataset& dataset, double diameter) {
   FitSpec spec = parse_fit(init_fit, "fit.toml");
   const ImpactModel model = make_model(spec, {dataset});
@@ -125,7 +125,7 @@ std::string example_points(const Dataset& dataset, double diameter) {
   return csv;
 }
 
-/// Removes files at the end unless `stay` was called, because incomplete results would prevent a
+/// Removes its files in the destructor unless `keep` was called. Incomplete results would prevent a
 /// second run.
 class NewFiles {
  public:
@@ -136,7 +136,7 @@ class NewFiles {
   }
   NewFiles(const NewFiles&) = delete;
   NewFiles& operator=(const NewFiles&) = delete;
-  void stay() { files_.clear(); }
+  void keep() { files_.clear(); }
 
  private:
   std::vector<fs::path> files_;
@@ -151,7 +151,7 @@ Dataset make_example(ImportRequest request, double diameter) {
   request.sd_of = "mean";
   request.text = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
   request.map = map_of(request.text);
-  const Dataset first = import_points(request).dataset;  // its materials are what is needed
+  const Dataset first = import_points(request).dataset;  // provides the materials
   request.text = example_points(first, diameter);
   request.map = map_of(request.text);
   request.replace = true;
@@ -168,7 +168,7 @@ void run_init(InitOptions options) {
     }
   }
   require_writable_folder(folder);
-  complete(options);
+  ask_for_missing(options);
   const Claim claim(folder / "points.csv");
   ImportRequest request;
   request.format = ImportFormat::csv;
@@ -192,8 +192,8 @@ void run_init(InitOptions options) {
     dataset = import_points(request).dataset;
   }
   write_whole_file(fit_file, init_fit);
-  load_inputs(fit_file);  // it runs
-  made.stay();
+  load_inputs(fit_file);  // throws if the files are not valid
+  made.keep();
   print_text("{}: {} points{}\n", folder.string(), dataset.points.size(),
              options.points.empty()
                  ? ", SYNTHETIC: computed from the model, with noise. Write your points to "

@@ -110,7 +110,7 @@ void add_dataset(const PairCommand& command, const PassageTable& table, const Pa
                   "above the surface; velocities at the surface.",
                   pairs.impacts.size(), table.passages.size(), pairs.height / units::mm),
       mixed ? pairs.height : 0.0);
-  parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
+  parse_dataset(package, points, command.into);  // throws if the dataset is not valid
   const fs::path folder = command.into;
   files.push_back({folder / "points.csv", points});
   if (mixed) files.push_back({folder / "sizes.csv", sizes_csv(distributions(table, pairs))});
@@ -118,11 +118,6 @@ void add_dataset(const PairCommand& command, const PassageTable& table, const Pa
   if (!left_out.empty()) {
     print_text(command.json ? stderr : stdout, "note: {}\n", left_out_sentence(left_out));
   }
-}
-
-void add_histograms(const fs::path& folder, const Distributions& shown,
-                    std::vector<WholeFile>& files) {
-  for (const auto& [name, text] : histogram_files(shown)) files.push_back({folder / name, text});
 }
 
 /// The files whose names are known in advance.
@@ -167,7 +162,9 @@ void run_pair(const PairCommand& command) {
   if (!command.out.empty()) files.push_back({command.out, points});
   if (!command.impacts.empty()) files.push_back({command.impacts, impacts_csv(table, pairs)});
   if (!command.histograms.empty()) {
-    add_histograms(command.histograms, distributions(table, pairs), files);
+    for (const auto& [name, text] : histogram_files(distributions(table, pairs))) {
+      files.push_back({fs::path(command.histograms) / name, text});
+    }
   }
   write_whole_files(files, replacing);
 }

@@ -32,7 +32,7 @@ void run_predict(const PredictOptions& options) {
     claim.emplace(out / "predict.json");
   }
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  choose_dataset(analysis.datasets, options.dataset);  // complains before the bootstrap
+  choose_dataset(analysis.datasets, options.dataset);  // throws before the bootstrap
   analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets,
                                         uncertainty_options(analysis.spec, resolved));
   const PolydispersePrediction mixture =

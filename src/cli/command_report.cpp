@@ -14,6 +14,8 @@
 #include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "document/html.hpp"
+#include "plot/draw.hpp"
 #include "report/comparison_report.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
@@ -44,8 +46,8 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
 }
 
 /// A fit NAME has the page NAME.html and the folder NAME.
-/// @throws InputError if two fits would have the same page, or one the page of the index
-void require_pages_of_their_own(const std::vector<fs::path>& fits) {
+/// @throws InputError if two fits would have the same page, or a fit the page of the index
+void require_distinct_pages(const std::vector<fs::path>& fits) {
   std::map<std::string, fs::path> owners = {{"index.html", "the index"}};
   for (const fs::path& fit : fits) {
     const std::string id = fit.stem().string();
@@ -79,8 +81,8 @@ std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   return sha256_hex(text) + "\n";
 }
 
-/// Diagnoses a fit. At the same time it adds the fits under every law to `analysis`: these take one
-/// thread, and a diagnosis does not use all threads.
+/// Diagnoses a fit and adds the fits under every law to `analysis`. Both run at the same time,
+/// because a diagnosis does not use all threads.
 Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
@@ -152,8 +154,11 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   at_once(
       flags.threads, [&] { page = fit_html(analysis, &diagnosis, entry.diagnosis_page); },
       [&] { diagnosis_page = diagnosis_html(diagnosis); },
-      [&] { entry.picture = thumbnail(analysis); });
-  entry.picture_csv = thumbnail_csv(analysis);
+      [&] {
+        const plot::Picture picture = thumbnail(analysis);
+        entry.picture = plot::draw_svg(picture);
+        entry.picture_csv = plot::csv_of(picture);
+      });
   entry.fit_json = fit_json(analysis);
   entry.diagnosis_json = diagnosis_json(diagnosis);
   write_whole_files({{files.page, page},
@@ -175,7 +180,7 @@ void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
   const std::vector<fs::path> fits = fits_to_report(options);
-  require_pages_of_their_own(fits);
+  require_distinct_pages(fits);
   std::vector<IndexEntry> entries;
   for (const fs::path& fit : fits) {
     const std::string id = fit.stem().string();
@@ -197,7 +202,7 @@ void report(const ReportOptions& options) {
     print_text("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
   }
-  write_whole_file(out / "index.html", html_index(entries));
+  write_whole_file(out / "index.html", html_page(index_document(entries)));
   print_text("{}: written\n", (out / "index.html").string());
 }
 

@@ -32,7 +32,7 @@ void add_pair(Program& program);
 void add_plan(Program& program);
 void add_merge(Program& program);
 void add_cluster(Program& program);
-/// The command help, which also describes the commands that were added before it.
+/// Adds the command help, which also describes the commands added before it.
 void add_help(Program& program);
 
 /// The commands whose pieces several processes can share.
@@ -112,10 +112,10 @@ struct ShardFlags {
   bool one_of_several() const { return !shard.empty(); }
   bool merging() const { return !parts.empty(); }
 
-  /// Checks before the computation that a shard has a folder and pieces. @throws InputError
+  /// @throws InputError if a shard has no folder or no pieces
   void require_share(const std::string& out, std::size_t count) const;
 
-  /// The origin of this command.
+  /// Identifies the command and its inputs.
   Origin origin(const FitSpec& spec, const std::vector<Dataset>& datasets, std::uint64_t seed,
                 std::size_t count, const std::string& start) const;
 

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/error.hpp"
 #include "data/text.hpp"
 
 namespace recoil {

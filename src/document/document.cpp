@@ -13,24 +13,9 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-bool says_nothing(const Cell& cell) {
+bool is_empty(const Cell& cell) {
   const auto* words = std::get_if<Sentence>(&cell);
   return std::holds_alternative<std::monostate>(cell) || (words != nullptr && words->empty());
-}
-
-bool all_empty(const std::vector<Block>& blocks) {
-  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return empty(block); });
-}
-
-/// Calls `visit` with every block, those within others too.
-template <class Blocks, class Visit>
-void each_block(Blocks& blocks, const Visit& visit) {
-  for (auto& block : blocks) {
-    visit(block);
-    if (auto* section = std::get_if<Section>(&block.content())) {
-      each_block(section->blocks, visit);
-    }
-  }
 }
 
 }  // namespace
@@ -52,7 +37,7 @@ Table without_empty_columns(Table table) {
   for (auto& row : table.rows) row.resize(table.columns.size());
   for (std::size_t column = table.columns.size(); column-- > 1;) {
     const bool needed = std::any_of(table.rows.begin(), table.rows.end(),
-                                    [&](const auto& row) { return !says_nothing(row[column]); });
+                                    [&](const auto& row) { return !is_empty(row[column]); });
     if (needed) continue;
     const auto place = static_cast<std::ptrdiff_t>(column);
     table.columns.erase(table.columns.begin() + place);
@@ -65,7 +50,7 @@ Table items(const std::vector<std::pair<Sentence, Cell>>& entries) {
   Table table;
   table.columns = {{}, {{}, "", true}};
   for (const auto& [name, value] : entries) {
-    if (!says_nothing(value)) table.rows.push_back({name, value});
+    if (!is_empty(value)) table.rows.push_back({name, value});
   }
   return table;
 }
@@ -76,39 +61,30 @@ Figure figure_of(plot::Picture picture, Sentence caption) {
   return figure;
 }
 
-Blocks::Blocks() = default;
-Blocks::Blocks(std::vector<Block> blocks) : std::vector<Block>(std::move(blocks)) {}
-Blocks::Blocks(std::initializer_list<Block> blocks) : std::vector<Block>(blocks) {}
-Blocks::Blocks(const Blocks&) = default;
-Blocks::Blocks(Blocks&&) noexcept = default;
-Blocks& Blocks::operator=(const Blocks&) = default;
-Blocks& Blocks::operator=(Blocks&&) noexcept = default;
-Blocks::~Blocks() = default;
-
 bool empty(const Block& block) {
-  return std::visit(Overloaded{[](const Paragraph& paragraph) { return paragraph.text.empty(); },
-                               [](const List& list) { return list.entries.empty(); },
+  return std::visit(Overloaded{[](const List& list) { return list.entries.empty(); },
                                [](const Table& table) { return table.empty(); },
                                [](const Figures& figures) { return figures.figures.empty(); },
-                               [](const Banner& banner) { return banner.text.empty(); },
-                               [](const Remark& remark) { return remark.text.empty(); },
-                               [](const Section& section) { return empty(section); }},
+                               [](const auto& one) { return one.text.empty(); }},
                     block.content());
 }
 
-bool empty(const Section& section) { return all_empty(section.blocks); }
+bool empty(const Section& section) {
+  return std::all_of(section.blocks.begin(), section.blocks.end(),
+                     [](const Block& block) { return empty(block); });
+}
 
-void append(std::vector<Block>& blocks, std::vector<Block> more) {
+void append(Blocks& blocks, Blocks more) {
   for (Block& block : more) blocks.push_back(std::move(block));
 }
 
 std::vector<const Figure*> figures_of(const Section& section) {
   std::vector<const Figure*> all;
-  each_block(section.blocks, [&](const Block& block) {
-    if (const auto* figures = std::get_if<Figures>(&block.content())) {
-      for (const Figure& figure : figures->figures) all.push_back(&figure);
-    }
-  });
+  for (const Block& block : section.blocks) {
+    const auto* const figures = std::get_if<Figures>(&block.content());
+    if (figures == nullptr) continue;
+    for (const Figure& figure : figures->figures) all.push_back(&figure);
+  }
   return all;
 }
 

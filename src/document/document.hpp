@@ -1,6 +1,6 @@
 #pragma once
 
-#include <initializer_list>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,139 +9,126 @@
 #include "document/sentence.hpp"
 #include "plot/plot.hpp"
 
-/// What people read, before it is known where: the terminal (terminal.hpp) or a page (html.hpp)
-/// writes it out.
+/// The content of an output, independent of its format. terminal.hpp and html.hpp write it.
 namespace recoil {
 
-/// A cell without content is shown as a dash.
+/// The content of a table cell. std::monostate is shown as a dash.
 using Cell = std::variant<std::monostate, Sentence, Number, NumberRange>;
 
+/// The content, or an empty cell for nullopt.
 template <class T>
 Cell cell_if(const std::optional<T>& content) {
   return content ? Cell(*content) : Cell();
 }
 
+/// The text of a cell; "–" for an empty one.
 Sentence words_of_cell(const Cell& cell);
 
 struct TableColumn {
   Sentence heading;
-  std::string unit{};  ///< stands in the heading
-  bool words = false;  ///< to be read rather than compared: to the left, and broken into lines
+  std::string unit{};  ///< shown in brackets after the heading
+  bool words = false;  ///< contains text: aligned left and wrapped
 };
 
-/// The first cell of a row is its heading. Columns in which no row says anything are not shown. A
-/// table without headings is a list of names and values.
+/// The first cell of a row is its heading. A column that is empty in all rows is not shown. A
+/// two-column table without headings is a list of names and values.
 struct Table {
   Sentence caption;
   std::vector<TableColumn> columns;
   std::vector<std::vector<Cell>> rows;
-  bool compact = false;  ///< small type, for many rows
+  bool compact = false;  ///< set in small type, for tables with many rows
 
   bool empty() const { return rows.empty(); }
   bool has_headings() const;
 };
 
-/// `table` as it is shown: every row as long as there are columns, columns that say nothing left
-/// out.
+/// `table` without its empty columns. Short rows are filled with empty cells.
 Table without_empty_columns(Table table);
 
-/// Names and values, two by two.
+/// A list of names and values. Entries with an empty value are omitted.
 Table items(const std::vector<std::pair<Sentence, Cell>>& entries);
 
 struct Paragraph {
   Sentence text;
-  bool lead = false;  ///< the answer itself, in larger type
+  bool lead = false;  ///< the main result, set in larger type
 };
 
 struct List {
   std::vector<Sentence> entries;
 };
 
-/// One picture, as SVG or as what it shows; a page draws those that are not drawn yet.
+/// One picture with its caption. A page draws `picture` unless `svg` is given.
 struct Figure {
   std::string id;
   std::string title;
-  Sentence caption;   ///< what it shows, and what to look for; without one there is no frame
-  std::string svg{};  ///< ready to inline; empty: not drawn yet
+  Sentence caption;   ///< a figure without a caption has no frame
+  std::string svg{};  ///< the SVG element; empty: drawn from `picture`
   plot::Picture picture{};
-  std::string csv{};       ///< its data; empty: those of `picture`
-  std::string explored{};  ///< JSON for `Document::script`, which makes controls of it
+  std::string csv{};       ///< the plotted data; empty: taken from `picture`
+  std::string explored{};  ///< JSON from which `Document::script` makes interactive controls
 };
 
+/// A figure with the name and title of `picture`.
 Figure figure_of(plot::Picture picture, Sentence caption);
 
-/// Pictures side by side. A terminal has none.
+/// Pictures side by side. The terminal omits them.
 struct Figures {
   std::vector<Figure> figures;
 };
 
-/// Something to know before reading on: where the points come from.
+/// A highlighted notice, such as the provenance of the points or a warning.
 struct Banner {
-  std::string label;  ///< one word, also the name of its look
+  std::string label;  ///< one word, also its class in HTML
   Sentence text;
 };
 
-/// One line behind a sign that can be told from others without its colour.
+/// One line after a sign, so that its meaning does not depend on colour.
 struct Remark {
-  std::string look;  ///< the name of its look
+  std::string look;  ///< its class in HTML
   std::string sign;
   Sentence text;
 };
 
-struct Block;
-
-/// A vector of blocks that a section can begin without: what makes and destroys it stands where a
-/// block is complete.
-struct Blocks : std::vector<Block> {
-  Blocks();
-  Blocks(std::vector<Block> blocks);
-  Blocks(std::initializer_list<Block> blocks);
-  Blocks(const Blocks&);
-  Blocks(Blocks&&) noexcept;
-  Blocks& operator=(const Blocks&);
-  Blocks& operator=(Blocks&&) noexcept;
-  ~Blocks();
-};
-
-/// How urgently a reader needs a section. The terminal prints the answer alone unless asked for
-/// more; a page shows the answer and folds the details.
-enum class Importance { answer, detail };
-
-struct Section {
-  std::string id;
-  Sentence title;     ///< may be empty: a section without a heading
-  Sentence remark{};  ///< behind the title
-  Blocks blocks{};
-  std::string address{};  ///< target of the title's link
-  Importance importance = Importance::answer;
-};
-
-struct Block : std::variant<Paragraph, List, Table, Figures, Banner, Remark, Section> {
+struct Block : std::variant<Paragraph, List, Table, Figures, Banner, Remark> {
   using variant::variant;
   const variant& content() const { return *this; }
   variant& content() { return *this; }
 };
+using Blocks = std::vector<Block>;
 
-/// Nothing to be shown.
+/// Whether a section belongs to the answer or to the details. Without --verbose, the terminal
+/// prints only the answer; a page folds the details.
+enum class Importance { answer, detail };
+
+struct Section {
+  std::string id;
+  Sentence title;     ///< empty: the section has no heading
+  Sentence remark{};  ///< printed after the title
+  Blocks blocks{};
+  std::string address{};  ///< target of the title's link; empty: no link
+  Importance importance = Importance::answer;
+};
+
+/// True if a block, or every block of a section, has no content.
 bool empty(const Block& block);
 bool empty(const Section& section);
 
-/// Every section as a block of its own; `more` behind `blocks`.
-void append(std::vector<Block>& blocks, std::vector<Block> more);
+/// Appends `more` to `blocks`.
+void append(Blocks& blocks, Blocks more);
 
 struct Document {
-  std::string title;  ///< of the window
-  Sentence heading;   ///< of the page
+  std::string title;  ///< title of the browser window
+  Sentence heading;   ///< heading of the page
   Sentence subtitle{};
-  std::vector<Block> foreword{};  ///< above the contents
+  Blocks foreword{};  ///< above the list of contents
   std::vector<Section> sections{};
-  std::string foot{};    ///< who made it
-  bool cards = false;    ///< the sections stand side by side, without a list of contents
-  std::string name{};    ///< what the files that a reader saves from the page begin with
-  std::string script{};  ///< JavaScript of the page, beside that which saves pictures
+  std::string foot{};    ///< footer: program and version
+  bool cards = false;    ///< sections are cards side by side, without a list of contents
+  std::string name{};    ///< prefix of the files that a reader saves from the page
+  std::string script{};  ///< JavaScript of the page, in addition to `save_script`
 };
 
-/// Every figure of a section, those in subsections too.
+/// All figures of a section.
 std::vector<const Figure*> figures_of(const Section& section);
 
 }  // namespace recoil

@@ -13,7 +13,8 @@
 namespace recoil {
 namespace {
 
-/// C_H: an italic letter and an upright subscript; f0, V* alike; a longer name stays as it is.
+/// A symbol such as C_H, f0 or V* as an italic letter with an upright subscript. Longer names are
+/// not changed.
 std::string symbol_html(const std::string& name) {
   const std::string star = name.ends_with('*') ? "*" : "";
   const std::string stem = name.substr(0, name.size() - star.size());
@@ -30,7 +31,7 @@ std::string symbol_html(const std::string& name) {
   return fmt::format("{}<sub>{}</sub>{}", italic(stem.substr(0, 1)), escape_html(below), star);
 }
 
-/// um: µm; m2: m².
+/// A unit with µ and superscripts: µm for um, m² for m2.
 std::string unit_html(const std::string& name) {
   std::string out;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -54,12 +55,11 @@ bool belongs_to_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
 }
 
-/// The number with an exponent that `text` begins with: mantissa, exponent, length; no length
-/// without one.
+/// A number such as 5e-15 at the start of a text.
 struct PowerOfTen {
   std::string_view mantissa;
   int exponent = 0;
-  std::size_t length = 0;
+  std::size_t length = 0;  ///< number of its characters; 0: the text does not start with one
 };
 
 PowerOfTen power_of_ten(std::string_view text) {
@@ -75,8 +75,8 @@ PowerOfTen power_of_ten(std::string_view text) {
   return {text.substr(0, e), text[e + 1] == '-' ? -power : power, end};
 }
 
-/// Plain text as it is printed: 5e-15 as a power of ten, and behind a number um as µm, J/m2 as J/m²
-/// and +/- as ±.
+/// Plain text as HTML. 5e-15 becomes a power of ten; after a number, um becomes µm, J/m2 becomes
+/// J/m², and +/- becomes ±.
 std::string text_html(std::string_view text) {
   using Replacement = std::pair<std::string_view, std::string_view>;
   static constexpr std::array<Replacement, 5> behind_numbers = {
@@ -144,7 +144,7 @@ std::string heading_html(const TableColumn& column) {
              : fmt::format("{} [{}]", html_of(column.heading), unit_html(column.unit));
 }
 
-/// Is there more in a column than a word or two, to be broken into lines?
+/// True if a cell of the column is long enough to be wrapped.
 bool has_long_cells(const Table& table, std::size_t column) {
   constexpr std::size_t few = 32;
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
@@ -152,9 +152,10 @@ bool has_long_cells(const Table& table, std::size_t column) {
   });
 }
 
-/// A wide table becomes one list per row on a phone, in which every cell has its heading.
+/// On a narrow screen each row of a wide table becomes a list, in which every cell has a label: the
+/// heading of its column.
 std::string table_html(const Table& full) {
-  constexpr std::size_t widest = 3;  // columns that a phone shows side by side
+  constexpr std::size_t widest = 3;  // columns that a narrow screen shows side by side
   const Table table = without_empty_columns(full);
   const bool stacks = table.has_headings() && table.columns.size() > widest;
   const std::string look_of_table =
@@ -169,10 +170,11 @@ std::string table_html(const Table& full) {
     if (!table.columns[c].words) return "";
     return has_long_cells(table, c) ? " class=\"words prose\"" : " class=\"words\"";
   };
-  const auto label = [&](std::size_t c) {
-    const TableColumn& column = table.columns[c];
-    return fmt::format(" data-label=\"{}{}\"", escape_html(plain_text(column.heading)),
-                       column.unit.empty() ? "" : fmt::format(" [{}]", unit_html(column.unit)));
+  const auto label = [&](std::size_t c, const std::string& cell) {
+    const std::string heading = heading_html(table.columns[c]);
+    return stacks && !cell.empty() && !heading.empty()
+               ? fmt::format("<span class=\"label\">{}</span>", heading)
+               : "";
   };
   if (table.has_headings()) {
     out += "<thead><tr>";
@@ -187,21 +189,21 @@ std::string table_html(const Table& full) {
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string cell = html_of(words_of_cell(row[c]));
       out += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell)
-                    : fmt::format("<td{}{}>{}</td>", look(c), stacks ? label(c) : "", cell);
+                    : fmt::format("<td{}>{}{}</td>", look(c), label(c, cell), cell);
     }
     out += "</tr>\n";
   }
   return out + "</tbody>\n</table></div>\n";
 }
 
-/// JSON for a script, within which no markup can begin or end.
+/// A script element that holds JSON. "<" is escaped, so that the JSON cannot end the element.
 std::string data_html(std::string_view look, const std::string& json) {
   std::string safe;
   for (const char c : json) safe += c == '<' ? "\\u003c" : std::string(1, c);
   return fmt::format("<script type=\"application/json\" class=\"{}\">{}</script>\n", look, safe);
 }
 
-/// What the scripts of the page need: the data of the picture as a file, and what explores it.
+/// The data of a figure for the scripts of the page: its CSV and the JSON of its controls.
 std::string data_of_figure(const Figure& figure) {
   const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
   return (csv.empty() ? "" : data_html("csv", json_line(csv))) +
@@ -225,13 +227,6 @@ std::string figures_html(const std::vector<Figure>& figures) {
       fmt::format("<div class=\"figures{}\">\n", figures.size() == 1 ? " single" : "");
   for (const Figure& figure : figures) out += figure_html(figure);
   return out + "</div>\n";
-}
-
-std::string titled(const Section& section) {
-  const std::string title = html_of(section.title);
-  return section.address.empty()
-             ? title
-             : fmt::format("<a href=\"{}\">{}</a>", escape_html(section.address), title);
 }
 
 struct HtmlBlock {
@@ -260,12 +255,14 @@ struct HtmlBlock {
         "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> {}</p>\n",
         escape_html(remark.look), escape_html(remark.sign), html_of(remark.text));
   }
-  std::string operator()(const Section& section) const {
-    return section.title.empty()
-               ? html_of(section.blocks)
-               : fmt::format("<h3>{}</h3>\n{}", titled(section), html_of(section.blocks));
-  }
 };
+
+std::string titled(const Section& section) {
+  const std::string title = html_of(section.title);
+  return section.address.empty()
+             ? title
+             : fmt::format("<a href=\"{}\">{}</a>", escape_html(section.address), title);
+}
 
 std::string remark_html(const Section& section) {
   return section.remark.empty()
@@ -298,7 +295,7 @@ bool has_details(const Document& document) {
       [](const Section& section) { return section.importance == Importance::detail; });
 }
 
-/// Links to the sections. A page that folds its details needs none.
+/// Links to the sections; empty for pages of cards and for pages with folded sections.
 std::string contents_html(const Document& document) {
   if (document.cards || has_details(document)) return "";
   std::string out;
@@ -319,7 +316,7 @@ std::string html_of(const Sentence& sentence) {
   return out;
 }
 
-std::string html_of(const std::vector<Block>& blocks) {
+std::string html_of(const Blocks& blocks) {
   std::string out;
   for (const Block& block : blocks) {
     if (!empty(block)) out += std::visit(HtmlBlock{}, block.content());
@@ -342,7 +339,7 @@ std::string html_page(const Document& document) {
   }
   if (!details.empty()) answer = "<div class=\"answer\">\n" + answer + "</div>\n";
   const std::string body = answer + details;
-  // Only of a page with pictures: nothing else can be saved or explored.
+  // Only pages with pictures need scripts.
   const bool pictures = body.find("<svg ") != std::string::npos;
   const std::string scripts =
       pictures ? fmt::format("<script type=\"text/javascript\">\n{}{}</script>\n", save_script(),
@@ -351,7 +348,7 @@ std::string html_page(const Document& document) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      // nothing on a page may reach the network, whatever stands in the data that it shows
+      // Forbids all network access, whatever the data contain.
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
       "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
       "base-uri 'none'; form-action 'none'\">\n"

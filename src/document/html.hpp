@@ -6,26 +6,26 @@
 
 #include "document/document.hpp"
 
-/// Documents as self-contained pages: style sheet and pictures inside, no script, no network.
+/// Documents as self-contained HTML pages, with style sheet, scripts and pictures embedded.
 namespace recoil {
 
-/// `text` with the characters that mean something to HTML replaced, in content and attributes.
+/// Escapes `text` for the content or an attribute of an HTML element.
 std::string escape_html(std::string_view text);
 
-/// The words alone, symbols and units set as such.
+/// A sentence as inline HTML, with markup for symbols and units.
 std::string html_of(const Sentence& sentence);
 
-/// Blocks without a page around them.
-std::string html_of(const std::vector<Block>& blocks);
+/// Blocks as HTML, without the page.
+std::string html_of(const Blocks& blocks);
 
-/// The whole file, its pictures drawn.
+/// A complete HTML file. Pictures are drawn.
 std::string html_page(const Document& document);
 
 /// The style sheet of every page: light and dark, screen, phone and paper.
 std::string_view style_sheet();
 
-/// The JavaScript of every page with pictures: beside each of them links that save it as SVG and
-/// its data as CSV. save.js, embedded when the program is built.
+/// The JavaScript of every page with pictures (save.js). It adds links that save a picture as SVG,
+/// PNG or PDF and its data as CSV.
 std::string_view save_script();
 
 }  // namespace recoil

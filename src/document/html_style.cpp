@@ -29,7 +29,6 @@ a { color: var(--accent); }
 h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .25rem; letter-spacing: -.01em; }
 h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.5rem 0 .75rem; padding-top: .75rem;
   border-top: 1px solid var(--line); }
-h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
 p, ul { max-width: 48rem; }
 .subtitle { color: var(--quiet); margin: 0 0 1rem; }
 .summary { font-size: 1.08rem; }
@@ -75,6 +74,7 @@ thead th { border-top: 0; color: var(--quiet); font-weight: 600; }
 tbody th { font-weight: 600; }
 th:first-child { text-align: left; }
 td.words, th.words { text-align: left; }
+td .label { display: none; }
 td.words, tbody th { white-space: normal; min-width: 5rem; }
 td.prose { white-space: normal; min-width: 16rem; }
 table.compact { font-size: .8rem; }
@@ -125,9 +125,8 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .stack tr { display: block; padding: .3rem 0; border-top: 1px solid var(--line); }
   .stack th, .stack td { display: block; border: 0; padding: .12rem .6rem; }
   .stack td { text-align: right; overflow: hidden; }
-  .stack td::before { content: attr(data-label); float: left; margin-right: 1rem;
-    color: var(--quiet); }
-  .stack td:empty, .stack td[data-label=""]::before { display: none; }
+  .stack td .label { display: inline; float: left; margin-right: 1rem; color: var(--quiet); }
+  .stack td:empty { display: none; }
   .explore .control { grid-template-columns: 1fr 7.5rem; }
   .explore .control span { grid-column: 1 / -1; }
 }
@@ -140,7 +139,6 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   nav, .skip, .save, .explore, .explored { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
-  h3 { break-after: avoid; }
   .summary { font-size: 10.5pt; }
   .figures { grid-template-columns: 1fr 1fr; gap: .5rem; }
   .figures.single { max-width: none; }

@@ -7,32 +7,32 @@
 
 #include "document/sentence.hpp"
 
-/// Numbers as people read them.
+/// Numbers formatted for readers.
 namespace recoil {
 
-/// `value` with at most `count` significant digits; "n/a" for anything that is not finite.
+/// `value` with at most `count` significant digits; "n/a" if it is not finite.
 std::string number(double value, int count = 4);
 
-/// `value` with all of its `count` significant digits, zeros at the end included: "1.00".
+/// `value` with exactly `count` significant digits, including trailing zeros: "1.00".
 std::string digits(double value, int count);
 
-/// A value and its error, the error with two significant digits and both with the same decimals:
-/// ("0.00312", "0.00021").
+/// A value and its standard error. The error has two significant digits, and both have the same
+/// number of decimals: ("0.00312", "0.00021").
 std::pair<std::string, std::string> number_with_error(double value, double error);
 
-/// A p-value for people: "0.43", "0.0021", "< 1e-6".
+/// A p-value: "0.43", "0.0021", "< 1e-6".
 std::string p_value_text(double p);
 
-/// "95 %" of a level 0.95.
+/// A fraction in percent: "95 %" for 0.95.
 std::string percent(double fraction);
 
-/// How a number is written.
+/// The format of a number.
 struct Notation {
   enum class Kind { significant, padded, fixed, signed_fixed, scientific, probability };
   Kind kind = Kind::significant;
-  int digits = 4;        ///< significant ones, or decimals
-  double scale = 1.0;    ///< the number times this is what is written
-  std::string suffix{};  ///< directly behind it: " %"
+  int digits = 4;        ///< significant digits, or decimals
+  double scale = 1.0;    ///< factor applied before formatting
+  std::string suffix{};  ///< appended to the number: " %"
 };
 
 inline Notation significant(int digits) { return {Notation::Kind::significant, digits}; }
@@ -41,15 +41,15 @@ inline Notation fixed(int decimals) { return {Notation::Kind::fixed, decimals}; 
 inline Notation signed_fixed(int decimals) { return {Notation::Kind::signed_fixed, decimals}; }
 inline Notation scientific(int decimals) { return {Notation::Kind::scientific, decimals}; }
 inline Notation probability() { return {Notation::Kind::probability}; }
-inline Notation in_percent(Notation of_number) {
-  of_number.scale = 100.0;
-  of_number.suffix = " %";
-  return of_number;
+inline Notation in_percent(Notation notation, const std::string& suffix = " %") {
+  notation.scale = 100.0;
+  notation.suffix = suffix;
+  return notation;
 }
 
 std::string text_of(double value, const Notation& notation);
 
-/// From here to there.
+/// An interval.
 struct NumberRange {
   double lower = std::numeric_limits<double>::quiet_NaN();
   double upper = std::numeric_limits<double>::quiet_NaN();
@@ -60,13 +60,13 @@ struct NumberRange {
   operator Sentence() const { return text(); }
 };
 
-/// A value, with its standard error and its unit where it has them.
+/// A value with an optional standard error, unit and interval.
 struct Number {
   double value = std::numeric_limits<double>::quiet_NaN();
   Notation notation{};
-  double error = 0.0;  ///< one standard deviation; 0: none, and the notation decides the digits
-  std::string unit{};  ///< empty where the heading of a column says it
-  std::optional<std::pair<double, double>> band{};  ///< in which it lies, in the same notation
+  double error = 0.0;  ///< standard error, which sets the digits; 0: none, `notation` sets them
+  std::string unit{};  ///< empty: none, or stated in the heading of the column
+  std::optional<std::pair<double, double>> band{};  ///< its interval, in the same notation
 
   /// "0.00312 +/- 0.00021 s/m", "0.853 [0.840, 0.866]"
   Sentence words() const;
@@ -79,7 +79,7 @@ Number whole(Count count) {
   return {static_cast<double>(count), fixed(0)};
 }
 
-/// A quantity that may not be known.
+/// `value` as a number; nullopt if it is missing or not finite.
 std::optional<Number> number_if(const std::optional<double>& value, const Notation& notation);
 
 }  // namespace recoil

@@ -1,9 +1,8 @@
-// Saves the pictures of a page: beside each links to it as SVG, PNG and PDF and one to its data as CSV,
-// made of what is in the page. The data of a picture are a JSON string in the script of class csv
-// after it.
+// Adds links to every picture of a page that save it as SVG, PNG or PDF and its data as CSV. The data
+// of a picture are a JSON string in the script of class csv after it.
 "use strict";
 
-// Paper shows everything: folded sections open before printing.
+// Opens folded sections before printing.
 addEventListener("beforeprint", () => {
   for (const section of document.querySelectorAll("details.section")) section.open = true;
 });
@@ -14,7 +13,7 @@ document.addEventListener("DOMContentLoaded", () => {
                                .replace(/^[-.]+|[-.]+$/g, "");
   const page = document.body.dataset.name;
 
-  // The picture by itself, at the size of its view box.
+  // The picture as an SVG file with the size of its view box.
   function alone(svg) {
     const copy = svg.cloneNode(true);
     const [, , width, height] = svg.getAttribute("viewBox").split(" ");
@@ -23,7 +22,7 @@ document.addEventListener("DOMContentLoaded", () => {
     return new XMLSerializer().serializeToString(copy);
   }
 
-  // A PNG of three pixels per unit, on white, is saved as soon as it is drawn.
+  // Saves the picture as PNG on white, with three pixels per unit of the view box.
   function savePng(svg, file) {
     const image = new Image();
     image.onload = () => {
@@ -42,7 +41,7 @@ document.addEventListener("DOMContentLoaded", () => {
     image.src = "data:image/svg+xml," + encodeURIComponent(alone(svg));
   }
 
-  // A PDF is a print of the picture alone, on a page of its size: the browser's dialog saves it.
+  // Prints the picture on a page of its size. The browser's dialog saves the page as PDF.
   function printPdf(svg, name) {
     const frame = document.createElement("iframe");
     frame.title = name;
@@ -62,7 +61,7 @@ document.addEventListener("DOMContentLoaded", () => {
     frame.contentWindow.print();
   }
 
-  // The file is made when it is asked for: a picture may have changed since the page was read.
+  // A link that makes its file when it is clicked, because a picture may have changed.
   function link(label, file, type, content) {
     const made = document.createElement("a");
     made.textContent = label;

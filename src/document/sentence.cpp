@@ -21,7 +21,7 @@ bool is_symbol_name(std::string_view name) {
          });
 }
 
-/// What a name in braces stands for.
+/// The run for a name in braces: a unit, a symbol or the sign +/-.
 Run named_run(std::string_view name) {
   if (name == "+/-") return {RunKind::plus_minus, "+/-"};
   if (std::find(unit_names.begin(), unit_names.end(), name) != unit_names.end()) {
@@ -128,7 +128,7 @@ Sentence compose(std::string_view pattern, const std::vector<Filling>& fillings)
     const std::string_view inside = pattern.substr(at + 1, close - at - 1);
     if (inside.empty() || inside.front() == ':') {
       if (next == fillings.size()) {
-        throw std::logic_error(fmt::format("too little to fill the sentence '{}'", pattern));
+        throw std::logic_error(fmt::format("too few arguments for the sentence '{}'", pattern));
       }
       sentence += fillings[next++].rendered(inside);
     } else {
@@ -137,7 +137,7 @@ Sentence compose(std::string_view pattern, const std::vector<Filling>& fillings)
     at = close + 1;
   }
   if (next != fillings.size()) {
-    throw std::logic_error(fmt::format("too much to fill the sentence '{}'", pattern));
+    throw std::logic_error(fmt::format("too many arguments for the sentence '{}'", pattern));
   }
   return sentence;
 }

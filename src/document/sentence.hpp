@@ -9,14 +9,14 @@
 
 namespace recoil {
 
-/// What a piece of a sentence is; how it looks is the writers' business.
+/// The kind of one piece of a sentence. Each output format sets it in its own way.
 enum class RunKind {
   text,
-  symbol,  ///< of the model: "C_H", "V*", "f0"
+  symbol,  ///< a symbol of the model: "C_H", "V*", "f0"
   unit,    ///< "um", "J/m2"
   plus_minus,
-  exponent,   ///< of what stands before it: "0.83" of "d^0.83"
-  qualifier,  ///< what a symbol belongs to: the dataset of "C_A[mica]"
+  exponent,   ///< exponent of the preceding run: "0.83" in "d^0.83"
+  qualifier,  ///< owner of the preceding symbol: "mica" in "C_A[mica]"
   strong,
   code,
   link
@@ -25,14 +25,13 @@ enum class RunKind {
 struct Run {
   RunKind kind = RunKind::text;
   std::string text;
-  std::string address = {};  ///< of a link
+  std::string address = {};  ///< target of a link
 
   bool operator==(const Run&) const = default;
 };
 
-/// Words with the symbols, units and links that stand among them. Plain text becomes a sentence by
-/// itself, and nothing is ever looked for in it; what is to be set as a symbol is said so where the
-/// sentence is made, see `say`.
+/// Text with symbols, units and links. Plain text converts to a sentence and is not searched for
+/// symbols: `say` marks them.
 class Sentence {
  public:
   Sentence() = default;
@@ -53,11 +52,11 @@ class Sentence {
   std::vector<Run> runs_;
 };
 
-/// As characters of plain ASCII where the words are: "C_H = 3 +/- 1 um". For JSON and the terminal.
+/// The sentence without markup, for JSON and the terminal: "C_H = 3 +/- 1 um".
 std::string plain_text(const Sentence& sentence);
 std::vector<std::string> plain_texts(const std::vector<Sentence>& sentences);
 
-/// The symbol of a parameter's label: "C_A[mica]" is C_A of mica.
+/// The symbol of a parameter's label: "C_A[mica]" becomes C_A with the qualifier mica.
 Sentence symbol(std::string_view label);
 Sentence unit(std::string_view name);
 Sentence exponent(std::string number);
@@ -65,10 +64,10 @@ Sentence strong(std::string text);
 Sentence code(std::string text);
 Sentence link(std::string text, std::string address);
 
-/// " m/s"; nothing for a pure number, whose unit is empty or "1".
+/// " m/s"; empty for a dimensionless quantity, whose unit is "" or "1".
 Sentence unit_after_number(std::string_view name);
 
-/// What may be filled into a sentence.
+/// An argument of `say`: text or a number.
 class Filling {
  public:
   template <class T>
@@ -87,9 +86,8 @@ class Filling {
 
 Sentence compose(std::string_view pattern, const std::vector<Filling>& fillings);
 
-/// A sentence by its pattern, in which {} or {:.3g} takes the next filling, as in fmt::format, and
-/// a name in braces is set as what it is: {C_H} a symbol, {um} a unit, {+/-} the sign. A brace
-/// itself is written twice.
+/// Builds a sentence from a pattern. {} or {:.3g} takes the next argument, as in fmt::format. A
+/// name in braces is a symbol {C_H}, a unit {um} or the sign {+/-}. {{ and }} are literal braces.
 ///
 ///   say("{} points give {C_H} = {:.3g} s/m at {} {um}", count, value, diameter)
 template <class... Fillings>
@@ -97,17 +95,19 @@ Sentence say(std::string_view pattern, const Fillings&... fillings) {
   return compose(pattern, {Filling(fillings)...});
 }
 
-/// `words` with a capital at the start, unless it is a symbol, and a full stop at the end; empty
-/// stays empty.
+/// `words` with a capital letter at the start, unless it starts with a symbol, and a full stop at
+/// the end. An empty sentence stays empty.
 Sentence as_sentence(Sentence words);
 
+/// `parts` separated by `between`.
 Sentence join(const std::vector<Sentence>& parts, const Sentence& between);
 
-/// What `words` says of every item, with `between` between them: a string where it gives text.
+/// `words(item)` for every item, separated by `between`: a Sentence if `words` returns one, else a
+/// string.
 template <class Items, class Words>
 auto joined(const Items& items, std::string_view between, const Words& words) {
-  using Said = std::decay_t<decltype(words(*std::begin(items)))>;
-  std::conditional_t<std::is_same_v<Said, Sentence>, Sentence, std::string> text;
+  using Result = std::decay_t<decltype(words(*std::begin(items)))>;
+  std::conditional_t<std::is_same_v<Result, Sentence>, Sentence, std::string> text;
   for (auto item = std::begin(items); item != std::end(items); ++item) {
     if (item != std::begin(items)) text += between;
     text += words(*item);
@@ -115,7 +115,7 @@ auto joined(const Items& items, std::string_view between, const Words& words) {
   return text;
 }
 
-/// An identifier such as "jkr_loss" in words: "JKR loss".
+/// An identifier in words: "JKR loss" for "jkr_loss".
 std::string words_of(std::string identifier);
 
 }  // namespace recoil

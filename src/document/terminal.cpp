@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t margin = 4;
 constexpr std::size_t gap = 2;           // between columns
-constexpr std::size_t widest_name = 36;  // of a list of names and values
+constexpr std::size_t widest_name = 36;  // in a list of names and values
 constexpr std::size_t narrowest_name = 19;
-constexpr std::size_t narrowest_words = 24;  // of a column of words
-constexpr std::size_t longest_uncut = 50;    // a word that a narrow column still leaves whole
-constexpr std::size_t widest_heading = 30;   // of a row, where columns have to be shared out
+constexpr std::size_t narrowest_words = 24;  // width of a column of text
+constexpr std::size_t longest_uncut = 50;    // a word up to this length is not cut
+constexpr std::size_t widest_heading = 30;   // of a row, in a table that is printed in groups
 
 bool starts_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
 
@@ -25,7 +25,7 @@ std::size_t code_points(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_code_point));
 }
 
-/// Where to cut after `count` code points, never inside one.
+/// The index of the byte after `count` code points.
 std::size_t cut_position(std::string_view text, std::size_t count) {
   std::size_t seen = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -50,17 +50,23 @@ std::string padded_to(const std::string& text, std::size_t width, bool right) {
   return right ? blanks + text : text + blanks;
 }
 
-/// A table as characters, and how wide its columns are to be.
+/// The texts of a table and the widths of its columns.
 struct Layout {
   std::vector<std::string> headings;
   std::vector<std::vector<std::string>> rows;
-  std::vector<bool> left;  ///< aligned, and broken into lines
+  std::vector<bool> left;  ///< the column is aligned left and wrapped
   std::vector<std::size_t> width;
 
   std::size_t total() const {
     return std::accumulate(width.begin(), width.end(), std::size_t{0}) + gap * (width.size() - 1);
   }
 };
+
+/// The text of a cell, with "-" for an empty one.
+std::string cell_text(const Cell& cell) {
+  const std::string text = plain_text(words_of_cell(cell));
+  return text == "–" ? "-" : text;
+}
 
 std::string heading_of(const TableColumn& column) {
   const std::string heading = plain_text(column.heading);
@@ -77,8 +83,7 @@ Layout layout_of(const Table& table) {
   for (const auto& row : table.rows) {
     std::vector<std::string> cells;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      std::string text = plain_text(words_of_cell(row[c]));
-      if (text == "–") text = "-";
+      std::string text = cell_text(row[c]);
       layout.width[c] = std::max(layout.width[c], code_points(text));
       cells.push_back(std::move(text));
     }
@@ -87,7 +92,7 @@ Layout layout_of(const Table& table) {
   return layout;
 }
 
-/// Breaks headings, then columns of words, until the table is no wider than `room`.
+/// Wraps headings, then columns of text, until the table is no wider than `room`.
 void narrow(Layout& layout, std::size_t room) {
   if (layout.total() <= room) return;
   std::vector<std::size_t> least(layout.width.size(), narrowest_words);
@@ -108,11 +113,11 @@ void narrow(Layout& layout, std::size_t room) {
       }
     }
     if (widest == layout.width.size()) return;
-    --layout.width[widest];  // one by one, so that columns of words end up about as wide
+    --layout.width[widest];  // one at a time, so that the columns of text become about equally wide
   }
 }
 
-/// The columns that fit beside the first into `room`, group after group.
+/// Groups of columns. Each begins with the first column and fits into `room`.
 std::vector<std::vector<std::size_t>> groups_of(const Layout& layout, std::size_t room) {
   std::vector<std::vector<std::size_t>> groups = {{0}};
   std::size_t used = layout.width[0];
@@ -139,7 +144,7 @@ std::string row_text(const Layout& layout, const std::vector<std::string>& cells
   for (std::size_t l = 0; l < height; ++l) {
     std::string line(indent, ' ');
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      // Headings stand on the row's first line, cells hang from it.
+      // Headings are aligned at the bottom, cells at the top.
       const std::size_t first = heading ? height - lines[k].size() : 0;
       const std::string text = l >= first && l - first < lines[k].size() ? lines[k][l - first] : "";
       if (k > 0) line.append(gap, ' ');
@@ -160,14 +165,11 @@ std::string items_text(const Table& table, std::size_t indent, std::size_t colum
   std::string out;
   for (const auto& row : table.rows) {
     const std::string name = plain_text(words_of_cell(row[0]));
-    std::string value = plain_text(words_of_cell(row[1]));
-    if (value == "–") value = "-";
-    const std::size_t column = indent + width + 2;
     out += std::string(indent, ' ');
     out += code_points(name) < width
                ? padded_to(name, width, false)
                : wrap(name, columns, indent) + '\n' + std::string(indent + width, ' ');
-    out += "= " + wrap(value, columns, column) + '\n';
+    out += "= " + wrap(cell_text(row[1]), columns, indent + width + 2) + '\n';
   }
   return out;
 }
@@ -175,8 +177,6 @@ std::string items_text(const Table& table, std::size_t indent, std::size_t colum
 std::string paragraph_text(const Sentence& words, std::size_t indent, std::size_t columns) {
   return std::string(indent, ' ') + wrap(plain_text(words), columns, indent) + '\n';
 }
-
-std::string blocks_text(const std::vector<Block>& blocks, std::size_t columns);
 
 struct TerminalBlock {
   std::size_t columns;
@@ -202,20 +202,7 @@ struct TerminalBlock {
   std::string operator()(const Remark& remark) const {
     return paragraph_text(Sentence(remark.sign + " ") + remark.text, margin, columns);
   }
-  std::string operator()(const Section& section) const {
-    return section.title.empty() ? blocks_text(section.blocks, columns)
-                                 : paragraph_text(section.title, margin, columns) +
-                                       blocks_text(section.blocks, columns);
-  }
 };
-
-std::string blocks_text(const std::vector<Block>& blocks, std::size_t columns) {
-  std::string out;
-  for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(TerminalBlock{columns}, block.content());
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -299,7 +286,10 @@ std::string terminal_text(const Table& table, std::size_t indent, std::size_t co
 }
 
 std::string terminal_text(const Section& section, std::size_t columns) {
-  const std::string body = blocks_text(section.blocks, columns);
+  std::string body;
+  for (const Block& block : section.blocks) {
+    if (!empty(block)) body += std::visit(TerminalBlock{columns}, block.content());
+  }
   if (body.empty()) return "";
   if (section.title.empty()) return body;
   const std::string remark = section.remark.empty() ? "" : " " + plain_text(section.remark);

@@ -6,25 +6,25 @@
 
 #include "document/document.hpp"
 
-/// Documents as plain text, at most `columns` characters wide, in blocks with their name in double
-/// brackets. Figures are not shown; what a page folds stands open.
+/// Documents as plain text, at most `columns` characters wide. Titles of sections are in double
+/// brackets. Figures are omitted.
 namespace recoil {
 
-inline constexpr std::size_t terminal_columns = 100;  ///< at most, and wherever nothing is known
+inline constexpr std::size_t terminal_columns = 100;  ///< largest and default width
 
-/// The width for standard output: that of the terminal or of the variable COLUMNS, from 60 to
+/// The width of standard output: that of the variable COLUMNS or of the terminal, limited to 60 to
 /// `terminal_columns`.
 std::size_t output_columns();
 
-/// `text` in lines of at most `width` characters (code points), broken at spaces, every line after
-/// the first behind `indent` spaces; a word that is too long is cut.
+/// Wraps `text` at spaces into lines of at most `width` code points. All lines but the first are
+/// indented by `indent` spaces. A word that is too long is cut.
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
 /// The lines of a text.
 std::vector<std::string> lines_of(std::string_view text);
 
 std::string terminal_text(const Section& section, std::size_t columns = terminal_columns);
-/// Sections down to an importance, without those that are empty.
+/// The sections that are at least as important as `least`, without empty ones.
 std::string terminal_text(const std::vector<Section>& sections,
                           Importance least = Importance::detail,
                           std::size_t columns = terminal_columns);

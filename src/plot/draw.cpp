@@ -108,7 +108,7 @@ std::string text_svg(double x, double y, std::string_view text, Align align = Al
 }
 
 /// The attribute that rotates a text about its place [degrees, counter-clockwise].
-std::string turned(double x, double y, double degrees) {
+std::string rotation(double x, double y, double degrees) {
   return degrees == 0.0 ? ""
                         : fmt::format(" transform=\"rotate({:g} {} {})\"", -degrees, px(x), px(y));
 }
@@ -319,7 +319,7 @@ class PlotWriter {
       const double y = lower() + (plot_.x.upright ? 8.0 : 19.0);
       labels += text_svg(plot_.x.upright ? x + 4.0 : x, y, tick.label,
                          plot_.x.upright ? Align::right : Align::centre, "#333333",
-                         plot_.x.tick_size, turned(x + 4.0, y, plot_.x.upright ? 90.0 : 0.0));
+                         plot_.x.tick_size, rotation(x + 4.0, y, plot_.x.upright ? 90.0 : 0.0));
     }
     for (const Tick& tick : ticks_of(plot_.y)) {
       const double y = y_(tick.at);
@@ -338,7 +338,7 @@ class PlotWriter {
            labels +
            text_svg((x_.first + x_.last) / 2.0, lower() + 40.0, plot_.x.title(), Align::centre) +
            text_svg(left, middle, plot_.y.title(), Align::centre, ink, letter,
-                    turned(left, middle, 90.0));
+                    rotation(left, middle, 90.0));
   }
 
   std::string heading_svg() const {
@@ -525,7 +525,7 @@ class PlotWriter {
                id_, stops) +
            path_svg(rect_path(left, upper(), left + colour_bar, lower()),
                     fmt::format(" fill=\"url(#{}-colours)\"", id_) + pen("#555555", 1.0)) +
-           labels + text_svg(x, y, scale.label, Align::centre, ink, letter, turned(x, y, 90.0));
+           labels + text_svg(x, y, scale.label, Align::centre, ink, letter, rotation(x, y, 90.0));
   }
 
   const Plot& plot_;

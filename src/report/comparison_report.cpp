@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"
@@ -15,8 +14,32 @@ namespace recoil {
 
 namespace {
 
-constexpr double errors_to_end = 1.96;  // standard errors of a 95 % interval of a normal estimate
+constexpr double errors_to_end = 1.96;  // half width of a 95 % interval in standard errors
 
+/// The names of all quantities in the fits, without repetition.
+std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits) {
+  std::vector<std::string> names;
+  for (const ComparedFit& fit : fits) {
+    for (const ComparedQuantity& quantity : fit.quantities) {
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
+        names.push_back(quantity.name);
+      }
+    }
+  }
+  return names;
+}
+
+/// @throws InputError if the fits are not of the same data
+void require_same_data(const std::vector<ComparedFit>& fits) {
+  for (const ComparedFit& fit : fits) {
+    if (fit.data == fits.front().data) continue;
+    throw InputError({},
+                     fmt::format("{} and {} are fits of different data", fits.front().id, fit.id),
+                     "only fits of the same points can be compared", "fit the same datasets again");
+  }
+}
+
+/// Null if the fit does not have the quantity.
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
   const auto found =
       std::find_if(fit.quantities.begin(), fit.quantities.end(),
@@ -54,12 +77,12 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
         {Sentence(fit.id), title_of(fit) == fit.id ? Cell() : Cell(Sentence(title_of(fit))),
          whole(fit.free_parameters), Number{fit.chi2},
          aicc && best ? Cell(Number{*aicc - *best, fixed(1)}) : Cell("not defined"),
-         Number{fit.rmse}, fit.held_out_rmse ? Cell(Number{*fit.held_out_rmse}) : Cell()});
+         Number{fit.rmse}, cell_if(number_if(fit.held_out_rmse, {}))});
   }
   return table;
 }
 
-/// A compared quantity by its name: "C_A", "V* at 1.27 um, quartz".
+/// The name of a quantity with its symbol and unit marked: "C_A", "V* at 1.27 um, quartz".
 Sentence quantity_sentence(const std::string& name) {
   const auto end = name.find(" at ");
   if (end == std::string::npos) return symbol(name);
@@ -105,6 +128,7 @@ Sentence dependence_words(const ChoiceDependence& found) {
              joined(found.depends, ", ", quantity_sentence));
 }
 
+/// The interval of +- `errors_to_end` standard errors, in ln(value) if `log_scale`.
 Ends around(double value, double error, bool log_scale) {
   if (!log_scale) return {value - errors_to_end * error, value + errors_to_end * error};
   const double factor = std::exp(errors_to_end * error / value);
@@ -127,7 +151,7 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   fit.held_out_rmse = law.held_out_rmse;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
-    if (slot.is_constant() && !slot.moves()) continue;  // every law holds it at what is stated
+    if (slot.is_constant() && !slot.moves()) continue;  // fixed at its stated value under every law
     ComparedQuantity quantity{slot.label(), std::string(slot.parameter->unit),
                               acting_value(f.model, f.theta, s), slot.free, std::nullopt};
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
@@ -152,34 +176,13 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   return fit;
 }
 
-/// `laws.json`.
+/// laws.json.
 struct LawsFile {
   std::vector<ComparedFit> laws;
   RECOIL_FIELDS(laws)
 };
 
 }  // namespace
-
-std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits) {
-  std::vector<std::string> names;
-  for (const ComparedFit& fit : fits) {
-    for (const ComparedQuantity& quantity : fit.quantities) {
-      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
-        names.push_back(quantity.name);
-      }
-    }
-  }
-  return names;
-}
-
-void require_same_data(const std::vector<ComparedFit>& fits) {
-  for (const ComparedFit& fit : fits) {
-    if (fit.data == fits.front().data) continue;
-    throw InputError({},
-                     fmt::format("{} and {} are fits of different data", fits.front().id, fit.id),
-                     "only fits of the same points can be compared", "fit the same datasets again");
-  }
-}
 
 std::optional<double> ComparedFit::aicc() const {
   const int k = free_parameters;
@@ -282,7 +285,7 @@ std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
 
 namespace {
 
-Json fit_of_comparison(const ComparedFit& fit, std::optional<double> best) {
+Json fit_json_of(const ComparedFit& fit, std::optional<double> best) {
   const auto aicc = fit.aicc();
   return {{"id", fit.id},
           {"adhesion", fit.adhesion},
@@ -290,19 +293,10 @@ Json fit_of_comparison(const ComparedFit& fit, std::optional<double> best) {
           {"free_parameters", fit.free_parameters},
           {"points", fit.points},
           {"chi2", number_or_null(fit.chi2)},
-          {"aicc", number_or_null(aicc.value_or(NAN))},
+          {"aicc", as_json(aicc)},
           {"aicc_above_best", number_or_null(aicc && best ? *aicc - *best : NAN)},
           {"rmse", number_or_null(fit.rmse)},
-          {"held_out_rmse", number_or_null(fit.held_out_rmse.value_or(NAN))}};
-}
-
-Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
-  const ComparedQuantity* const found = quantity_of(fit, name);
-  if (found == nullptr) return nullptr;
-  entry["unit"] = found->unit;
-  return {{"value", number_or_null(found->value)},
-          {"free", found->free},
-          {"interval", as_json(found->interval)}};
+          {"held_out_rmse", as_json(fit.held_out_rmse)}};
 }
 
 }  // namespace
@@ -310,19 +304,23 @@ Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
 std::string comparison_json(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
   const std::optional<double> best = lowest_aicc(fits);
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["data"] = fits.front().data;
   out["fits"] = Json::array();
-  for (const ComparedFit& fit : fits) out["fits"].push_back(fit_of_comparison(fit, best));
+  for (const ComparedFit& fit : fits) out["fits"].push_back(fit_json_of(fit, best));
   const ChoiceDependence dependence = choice_dependence(fits);
   out["quantities"] = Json::array();
   for (const std::string& name : compared_names(fits)) {
-    Json entry = {{"name", name}, {"unit", ""}};
-    Json said = Json::array();
-    for (const ComparedFit& fit : fits) said.push_back(said_of(fit, name, entry));
-    entry["fits"] = std::move(said);
+    Json entry = {{"name", name}, {"unit", ""}, {"fits", Json::array()}};
+    for (const ComparedFit& fit : fits) {
+      Json& of_fit = entry["fits"].emplace_back();
+      const ComparedQuantity* const found = quantity_of(fit, name);
+      if (found == nullptr) continue;
+      entry["unit"] = found->unit;
+      of_fit = {{"value", number_or_null(found->value)},
+                {"free", found->free},
+                {"interval", as_json(found->interval)}};
+    }
     const auto is_in = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };

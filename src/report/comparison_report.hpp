@@ -9,16 +9,16 @@
 #include "json/fit_file.hpp"
 #include "predict/law_choice.hpp"
 
-/// Fits of the same data side by side.
+/// Comparison of fits of the same data.
 namespace recoil {
 
-/// A parameter or capture velocity of a fit that is compared with others.
+/// A parameter or capture velocity of a compared fit.
 struct ComparedQuantity {
   std::string name;  ///< "C_A", "V* (4.90 um)"
   std::string unit;
   double value = 0.0;
   bool free = true;
-  std::optional<Ends> interval = {};  ///< the recommended one
+  std::optional<Ends> interval = {};  ///< the recommended interval
   RECOIL_FIELDS(name, unit, value, free, interval)
 };
 
@@ -32,7 +32,7 @@ struct ComparedFit {
   int points = 0;
   int free_parameters = 0;
   bool sd_stated = false;
-  double rmse = 0.0;  ///< of e [1]
+  double rmse = 0.0;  ///< rms residual of e [1]
   std::optional<double> held_out_rmse;
   std::vector<ComparedQuantity> quantities;  ///< parameters, then capture velocities
 
@@ -40,44 +40,42 @@ struct ComparedFit {
                 held_out_rmse, quantities)
 
   /// Akaike's criterion for small samples, chi^2 + 2 k + 2 k (k + 1) / (n - k - 1) (Hurvich & Tsai
-  /// 1989, Biometrika 76, 297); none where no standard deviations are stated, as every fit then
-  /// has its own, or where there are too few points.
+  /// 1989, Biometrika 76, 297). nullopt without stated standard deviations, because every fit then
+  /// estimates its own, and for too few points.
   std::optional<double> aicc() const;
 };
 
-/// @param file names it in messages
-/// @throws InputError when `fit_json` is not the fit.json of a fit
+/// Reads a fit from the text of its fit.json.
+/// @param file name of the file, for messages
+/// @throws InputError if `fit_json` is not the fit.json of a fit
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json);
 
-/// The name of a capture velocity among compared quantities: "V* at 4.9 um, DATASET".
-/// @param datasets how many the fits have; of one it is not named
+/// The name of a capture velocity among the quantities: "V* at 4.9 um, DATASET".
+/// @param datasets number of datasets of the fits; the name of a single dataset is omitted
 std::string capture_name(double diameter_um, const std::string& dataset, std::size_t datasets);
 
-/// The same of one fit under every law of adhesion that has an answer. Intervals extend by 1.96
-/// standard errors to either side, to first order, and stop at the bounds.
+/// The fits of the same data under different laws of adhesion, without failed fits. An interval is
+/// the estimate +- 1.96 standard errors, limited to the bounds.
 std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
                                        const std::vector<Dataset>& datasets);
 
-/// The text of `laws.json`.
+/// The content of laws.json.
 std::string laws_json(const std::vector<ComparedFit>& laws);
 
-/// The names of all quantities in the fits, without repetition.
-std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits);
-
-/// @throws InputError when the fits are not of the same data
-void require_same_data(const std::vector<ComparedFit>& fits);
-
-/// Quantities by whether the intervals of all fits that have one overlap (`holds`).
+/// Names of the quantities that have intervals in several fits.
 struct ChoiceDependence {
-  std::vector<std::string> depends, holds;
+  std::vector<std::string> depends;  ///< the intervals do not overlap
+  std::vector<std::string> holds;    ///< all intervals overlap
 };
 ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits);
 
-/// Fits of the same data side by side: quality, quantities, and which of them depend on the choice.
-/// @throws InputError when they are not of the same data. @pre two or more
+/// The comparison of at least two fits: their quality, their quantities, and which quantities
+/// depend on the choice of the fit.
+/// @throws InputError if the fits are not of the same data
 std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits);
 
-/// Their quality, and whether the choice matters, for the page of a fit; none without another law.
+/// The quality of the fits under several laws, and which quantities depend on the law, for the page
+/// of a fit. Empty for fewer than two laws.
 std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws);
 
 }  // namespace recoil

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/units.hpp"
 #include "document/html.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
@@ -15,17 +14,17 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_pairs = 8;
-constexpr std::size_t most_misfits_on_top = 2;  // figures in the answer
-constexpr std::size_t sentences_in_short = 3;   // of the answer, on the page of the fit
+constexpr std::size_t most_misfits_on_top = 2;  // figures of the misfit in the answer
+constexpr std::size_t summary_sentences = 3;    // on the page of the fit
 
-/// One parameter under one of the models.
-struct UnderModel {
+/// One parameter under the base or the extended model.
+struct FittedParameter {
   Cell estimate, interval;
   std::string remark;
 };
 
-UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
-                       const std::string& label) {
+FittedParameter fitted_parameter(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
+                                 const std::string& label) {
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
     if (!fitted.model.slots[j].free) {
@@ -34,7 +33,7 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
               followed_in(fitted.model, j) ? "follows the materials" : "fixed"};
     }
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
-    UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
+    FittedParameter found{Number{fitted.theta[j], significant(4), error}, {}, ""};
     if (fitted.at_bound[j]) found.remark = "at its bound";
     if (j < intervals.size())
       found.interval = interval_cell(recommended_interval(intervals[j]), padded(3));
@@ -43,7 +42,8 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
   return {};
 }
 
-Cell said_of_both(const std::string& base, const std::string& extended) {
+/// The remarks on a parameter under both models.
+Cell remark_on_both(const std::string& base, const std::string& extended) {
   if (base == extended) return Sentence(base);
   if (base.empty()) return Sentence(extended + " in the extended model");
   if (extended.empty()) return Sentence(base + " in the base model");
@@ -79,8 +79,8 @@ Table misfit_table(const Diagnosis& d) {
   return table;
 }
 
-/// Single mechanisms and the best pairs, the best first.
-std::vector<CandidateResult> tried(const Diagnosis& d) {
+/// All single mechanisms and the best pairs, sorted by AICc.
+std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   std::vector<CandidateResult> all = d.candidates;
   const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
   all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
@@ -90,19 +90,18 @@ std::vector<CandidateResult> tried(const Diagnosis& d) {
   return all;
 }
 
-/// The mechanisms that gain more than their parameters cost or answer the question, each added to
-/// the model and refitted.
+/// The candidates that decrease AICc or explain the misfit.
 Table candidates_table(const Diagnosis& d) {
   Table table;
-  table.compact = true;
   table.caption =
       say("Mechanisms added to the model, alone or in pairs. Gain: decrease of AICc. {p}: share of "
           "simulated data sets in which the best of all candidates gains as much by chance. Left: "
           "p-value of the structure that remains");
   table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
                    {"held out"},  {"left"}, {"verdict", "", true}};
+  table.compact = true;
   std::size_t others = 0;
-  for (const CandidateResult& c : tried(d)) {
+  for (const CandidateResult& c : sorted_candidates(d)) {
     if (c.delta_aicc >= 0.0 && !c.explains()) {
       ++others;
       continue;
@@ -120,7 +119,7 @@ Table candidates_table(const Diagnosis& d) {
   return table;
 }
 
-/// What the causes in the answer mean.
+/// The meaning of the causes in the answer.
 List causes_list(const Diagnosis& d) {
   List list;
   for (const std::string& id : d.causes()) {
@@ -161,7 +160,7 @@ Table held_out_table(const Diagnosis& d) {
 Table both_models_table(const Diagnosis& d) {
   Table table;
   if (!d.extended() || !d.extended()->fit) return table;
-  const ExtendedModel& model_of = *d.extended();
+  const ExtendedModel& extension = *d.extended();
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
   table.compact = true;
   table.caption = "Parameters under both models";
@@ -170,16 +169,17 @@ Table both_models_table(const Diagnosis& d) {
                                  percent(d.spec.law_error));
   }
   table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
-  const ImpactModel& model = model_of.fit->model;
+  const ImpactModel& model = extension.fit->model;
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
     const ParameterSlot& slot = model.slots[s];
     if (slot.is_constant()) continue;
-    const UnderModel base = under_model(d.base, model_of.base_intervals, slot.label());
-    const UnderModel extended = under_model(*model_of.fit, model_of.intervals, slot.label());
-    Sentence name = parameter_words(model, s, d.datasets);
-    if (slot.parameter->unit != "1") name += " [" + unit(slot.parameter->unit) + "]";
-    table.rows.push_back({std::move(name), base.estimate, base.interval, extended.estimate,
-                          extended.interval, said_of_both(base.remark, extended.remark)});
+    const FittedParameter base = fitted_parameter(d.base, extension.base_intervals, slot.label());
+    const FittedParameter extended =
+        fitted_parameter(*extension.fit, extension.intervals, slot.label());
+    table.rows.push_back(
+        {name_with_unit(parameter_words(model, s, d.datasets), slot.parameter->unit), base.estimate,
+         base.interval, extended.estimate, extended.interval,
+         remark_on_both(base.remark, extended.remark)});
   }
   return table;
 }
@@ -212,9 +212,9 @@ Table next_experiment_table(const Diagnosis& d) {
   table.caption =
       "Experiments with the fewest impacts: impacts that make the expected odds between two causes "
       "99 to 1";
-  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
-                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
-                   {say("difference in {e}")}};
+  table.columns = {
+      {"action", "", true},    {"impacts"},        {say("{d}"), sizes.name},  {say("{V}"), "m/s"},
+      {"separates", "", true}, {"from", "", true}, {say("difference in {e}")}};
   for (const NextExperiment& next : several->experiments) {
     table.rows.push_back(
         {Sentence(doing_words(next)), whole(next.events), Sentence(size_text(next.diameter, sizes)),
@@ -263,7 +263,7 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
 
 Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
   std::vector<std::string> sentences = answer_sentences(d);
-  if (sentences.size() > sentences_in_short) sentences.resize(sentences_in_short);
+  if (sentences.size() > summary_sentences) sentences.resize(summary_sentences);
   Section section{"diagnosis", "Diagnosis"};
   section.blocks = {Paragraph{strong(headline(d) + ".") +
                               Sentence(fmt::format(" {}", fmt::join(sentences, " ")))}};
@@ -277,23 +277,21 @@ Document diagnosis_document(const Diagnosis& d) {
 }
 
 std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t columns) {
-  std::string answer, details;
-  for (const Section& section : diagnosis_sections(d)) {
-    (section.importance == Importance::answer ? answer : details) +=
-        terminal_text(section, columns);
-  }
+  std::vector<Section> sections = diagnosis_sections(d);
   if (!d.spec.file.empty()) {
-    answer += terminal_text(
+    const std::string file = d.spec.file.generic_string();
+    const auto first_detail =
+        std::find_if(sections.begin(), sections.end(),
+                     [](const Section& one) { return one.importance == Importance::detail; });
+    sections.insert(
+        first_detail,
         shown_section(
             "next", "",
-            {Paragraph{
-                say("Next: {} (a page, and the extended model as a fit file), {} (every "
-                    "cause tried).",
-                    code(fmt::format("recoil diagnose {} --out DIR", d.spec.file.generic_string())),
-                    code("--verbose"))}}),
-        columns);
+            {Paragraph{say("Next: {} (a page, and the extended model as a fit "
+                           "file), {} (every cause tried).",
+                           code("recoil diagnose " + file + " --out DIR"), code("--verbose"))}}));
   }
-  return least == Importance::answer ? answer : answer + details;
+  return terminal_text(sections, least, columns);
 }
 
 std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }

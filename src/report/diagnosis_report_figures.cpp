@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
@@ -18,17 +17,17 @@ namespace recoil {
 namespace {
 
 constexpr int curve_points = 80;
-constexpr double largest_z = 6.0;  // of the colour scale
+constexpr double largest_z = 6.0;  // at the ends of the colour scale
 
 std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
   return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
 }
 
-/// How far the base model is off at every point of a dataset.
-struct Misses {
+/// The deviations of the points of a dataset from the base model.
+struct Deviations {
   std::vector<double> velocities, diameters;  ///< [m/s], [size_unit]
-  std::vector<double> misses;                 ///< e - e_model
-  std::vector<double> in_sd;                  ///< the same in standard deviations
+  std::vector<double> in_e;                   ///< e - e_model
+  std::vector<double> in_sd;                  ///< `in_e` in standard deviations
 };
 
 std::string size_text(const Diagnosis& d, double diameter) {
@@ -36,37 +35,38 @@ std::string size_text(const Diagnosis& d, double diameter) {
   return size_text(diameter, unit) + " " + unit.sign;
 }
 
-Misses misses_of(const Diagnosis& d, std::size_t dataset) {
-  Misses all;
+Deviations deviations_of(const Diagnosis& d, std::size_t dataset) {
+  Deviations all;
   const double unit = size_unit(d.datasets).metres;
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset || point.counts_only()) continue;
-    const double miss = (point.censored ? 0.0 : point.restitution) -
-                        expected_restitution(point, d.base.prediction_squared[i]);
+    const double deviation = (point.censored ? 0.0 : point.restitution) -
+                             expected_restitution(point, d.base.prediction_squared[i]);
     all.velocities.push_back(point.velocity);
     all.diameters.push_back(point.diameter / unit);
-    all.misses.push_back(miss);
-    all.in_sd.push_back(point.weights.sd > 0.0 ? miss / point.weights.sd : 0.0);
+    all.in_e.push_back(deviation);
+    all.in_sd.push_back(point.weights.sd > 0.0 ? deviation / point.weights.sd : 0.0);
   }
   return all;
 }
 
-/// A logarithmic axis with a margin, wide enough to be read where the values hardly differ.
+/// The range of the values for a logarithmic axis. The margin is a power of the ratio of largest
+/// and smallest value, which counts as at least 1.5.
 plot::Range log_range(const std::vector<double>& values, double margin) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double factor = std::pow(std::max(*high / *low, 1.5), margin);
   return {*low / factor, *high * factor};
 }
 
-plot::Axis velocity_axis_of(const Misses& misses, double margin) {
+plot::Axis velocity_axis_of(const Deviations& deviations, double margin) {
   plot::Axis axis{"V", "m/s"};
   axis.logarithmic = true;
-  axis.set_range(log_range(misses.velocities, margin));
+  axis.set_range(log_range(deviations.velocities, margin));
   return axis;
 }
 
-/// Ticks at the diameters themselves, where they are few and far enough apart to be read.
+/// Ticks at the diameters; empty if there are many. Diameters close to the previous tick have none.
 std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range range) {
   constexpr std::size_t most = 8;
   const double nearest = std::pow(range.upper / range.lower, 0.07);
@@ -80,31 +80,32 @@ std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range ra
   return ticks;
 }
 
-/// The axis of the diameters; of one diameter alone, that of the misses themselves.
-plot::Axis vertical_axis(const Diagnosis& d, const Misses& misses, bool one_size) {
+/// The axis of the diameters or, for a single diameter, of the deviations.
+plot::Axis vertical_axis(const Diagnosis& d, const Deviations& deviations, bool one_size) {
   plot::Axis axis;
   if (one_size) {
     axis.label = "e - e_model";
-    std::vector<double> shown = misses.misses;
+    std::vector<double> shown = deviations.in_e;
     shown.push_back(0.0);
     axis.set_range(plot::range_of(shown, 0.12));
     return axis;
   }
   axis = {"d", size_unit(d.datasets).sign};
   axis.logarithmic = true;
-  const plot::Range range = log_range(misses.diameters, 0.25);
+  const plot::Range range = log_range(deviations.diameters, 0.25);
   axis.set_range(range);
-  axis.ticks = size_ticks(misses.diameters, range);
+  axis.ticks = size_ticks(deviations.diameters, range);
   return axis;
 }
 
 Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
-  const Misses misses = misses_of(d, dataset);
-  const bool one_size = std::all_of(misses.diameters.begin(), misses.diameters.end(),
-                                    [&](double size) { return size == misses.diameters.front(); });
+  const Deviations deviations = deviations_of(d, dataset);
+  const bool one_size =
+      std::all_of(deviations.diameters.begin(), deviations.diameters.end(),
+                  [&](double size) { return size == deviations.diameters.front(); });
   plot::Plot shown;
-  shown.x = velocity_axis_of(misses, 0.06);
-  shown.y = vertical_axis(d, misses, one_size);
+  shown.x = velocity_axis_of(deviations, 0.06);
+  shown.y = vertical_axis(d, deviations, one_size);
   shown.colours =
       plot::ColourScale{"(e - e_model) / sd",
                         {-largest_z, largest_z},
@@ -112,11 +113,11 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   if (one_size) {
     shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
     shown.layers.push_back(plot::Words{
-        fmt::format("d = {:.4g} {}", misses.diameters.front(), size_unit(d.datasets).sign),
+        fmt::format("d = {:.4g} {}", deviations.diameters.front(), size_unit(d.datasets).sign),
         plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
   }
-  shown.layers.push_back(
-      plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});
+  shown.layers.push_back(plot::Discs{
+      deviations.velocities, one_size ? deviations.in_e : deviations.diameters, deviations.in_sd});
   return figure_of(
       {.name = fmt::format("misfit-{}", dataset),
        .title = "Misfit of the base model against velocity and diameter" + in_dataset(d, dataset),
@@ -127,7 +128,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       "structure, a mixture indicates noise.");
 }
 
-/// The base curve and the extended one of one diameter.
+/// The curves of the base and the extended model for one diameter.
 struct TwoCurves {
   std::vector<double> velocity, base, extended;
 };
@@ -150,7 +151,7 @@ TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, st
   return curves;
 }
 
-/// The axis of e begins at nothing, unless all points lie high above.
+/// The axis of e. It begins at 0 unless all points are above 0.7.
 plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
   double top = 0.0;
   double bottom = 1.0;
@@ -185,7 +186,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     size.series = point.series;
   }
   plot::Plot shown;
-  shown.x = velocity_axis_of(misses_of(d, dataset), 0.04);
+  shown.x = velocity_axis_of(deviations_of(d, dataset), 0.04);
   shown.y = axis_around_points(d, dataset);
   shown.key = plot::KeyPlace::above;
   std::size_t k = 0;

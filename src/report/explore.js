@@ -1,8 +1,8 @@
-// Explores a fit in its page: another e(V) for other parameters, computed here.
+// Adds controls to the pictures of e(V) that compute the curve for other parameters.
 //
-// A script of class explore follows a picture of e(V). It holds the model's values and the points as
-// JSON (fit_report_figures.cpp). This script adds folded controls below the picture; without it the
-// page is complete. window.recoil holds the functions that tests call.
+// A JSON script of class explore follows a picture. It holds the parameters and the points
+// (fit_report_figures.cpp). The controls are in a folded element below the picture. window.recoil
+// holds the functions for tests.
 "use strict";
 
 window.recoil = (() => {
@@ -10,9 +10,9 @@ window.recoil = (() => {
 
   const midpoints = [2, 4, 6, 8, 10, 12, 14];
 
-  // One step of length `h` along dq/ds = u, du/ds = force(q, u): modified midpoint rule with 2 to 14
-  // parts, extrapolated to infinitely many (Gragg 1965; Bulirsch & Stoer 1966). `error` is what the
-  // last extrapolation changed.
+  // One step of length `h` for dq/ds = u, du/ds = force(q, u): modified midpoint rule with 2 to 14
+  // substeps, extrapolated to infinitely many (Gragg 1965; Bulirsch & Stoer 1966). `error` is the
+  // change by the last extrapolation.
   function step(force, q, u, h) {
     const a0 = force(q, u);
     const rowsQ = [], rowsU = [];
@@ -39,7 +39,7 @@ window.recoil = (() => {
     return {q: rowsQ[last], u: rowsU[last], error};
   }
 
-  // Where `g` changes its sign between a and b: regula falsi with the Illinois rule and halving.
+  // The root of `g` between a and b: regula falsi with the Illinois rule and bisection.
   function root(g, a, b) {
     let ga = g(a), gb = g(b);
     if (ga === 0) return a;
@@ -90,9 +90,9 @@ window.recoil = (() => {
   // ---------------------------------------------------------------- the laws of contact
 
   // Every law is dimensionless, lengths in n_c = (V^2 m / (sqrt(r) K))^(2/5), velocities in V, and
-  // regular in its own coordinate q: dq/ds = u, du/ds = force(q, u). The sphere touches at q =
-  // start with u = 1 and is free at q = release, where the potential is 0; it would rest at
-  // `resting`. `acts` is 1 while C_A acts.
+  // regular in its own coordinate q: dq/ds = u, du/ds = force(q, u). Contact begins at q = start with
+  // u = 1 and ends at q = release, where the potential is 0. The equilibrium is at `resting`. `acts`
+  // is 1 while C_A acts.
 
   // Li, Dunn & Brach (1999), eq. 5; penetration q^2.
   function ring(alpha, beta, gamma) {
@@ -117,7 +117,7 @@ window.recoil = (() => {
     return law;
   }
 
-  // Johnson, Kendall & Roberts (1971); q^2 is the radius of contact over that at which it parts.
+  // Johnson, Kendall & Roberts (1971); q^2 is the contact radius over that at separation.
   function jkr(alpha, beta, gamma) {
     const strength = 4 * Math.pow(6, -10 / 3) * Math.pow(beta, 2.5);
     const law = {
@@ -167,9 +167,9 @@ window.recoil = (() => {
     return {outer, edge, slope, rate, rateInSquare, elastic, adhesive, approach, energy};
   }
 
-  const knownPaths = new Map();  // of lambda
+  const knownPaths = new Map();  // by lambda
 
-  // Where the attraction sets in, the bodies part, and a sphere would rest.
+  // The places where contact begins and ends, and the equilibrium.
   function maugisPath(lambda) {
     if (knownPaths.has(lambda)) return knownPaths.get(lambda);
     const touch = maugisContact(0, lambda, false), far = 2 * (1 + lambda);
@@ -208,8 +208,8 @@ window.recoil = (() => {
 
   // ---------------------------------------------------------------- one impact
 
-  // e^2 of one impact; after a capture twice the energy at the outer turning point over m V^2,
-  // below 0. NaN where it cannot be followed.
+  // e^2 of one impact; for a capture 2 E / (m V^2) < 0 at the outer turning point. NaN if the
+  // integration does not finish.
   function integrate(law, bothPhases) {
     const floor = 2 * law.potential(law.resting);
     if (law.creeps) return floor;
@@ -222,7 +222,7 @@ window.recoil = (() => {
         length *= to.error > 0 ? Math.max(0.2, 0.8 * Math.pow(tolerance / to.error, 1 / 13)) : 0.2;
         continue;
       }
-      // The first of what may end this step before its end.
+      // The first event within this step.
       let first = length, event = null;
       const consider = (name, g) => {
         const at = root(h => (h === 0 ? g(q, u) : g2(g, h)), 0, first);
@@ -296,7 +296,7 @@ window.recoil = (() => {
     return Math.sqrt(Math.max(0, restitutionSquared(velocity, diameter, values)));
   }
 
-  // The largest velocity [m/s] that is captured; 0: all come back, NaN: none does.
+  // The capture velocity [m/s]; 0 if no sphere is captured, NaN if all are.
   function captureVelocity(diameter, values) {
     const scale = adhesionVelocity(values, diameter);
     if (!(scale > 0) || (!lawOf(values).jumps && values.C_H === 0 && values.C_A === 0)) return 0;
@@ -352,7 +352,7 @@ window.recoil = (() => {
         ? student.unit * student.unit * (student.nu + 1) * Math.log1p(r2 / student.nu) : r2;
   }
 
-  // chi2 of the points of a panel, if the diameters were `diameter` over that of the panel as large.
+  // chi2 of the points of a panel with all diameters scaled by `diameter` / panel.diameter.
   function misfit(panel, diameter, values) {
     return panel.points.reduce((sum, row) => {
       const point = pointOf(panel, row);
@@ -362,7 +362,7 @@ window.recoil = (() => {
     }, 0);
   }
 
-  // A row holds numbers under the names of panel.columns; what has no column is 0 everywhere.
+  // A point from a row of numbers under panel.columns. Values without a column are 0.
   function pointOf(panel, row) {
     const point = {input_sd: 0, scatter: 0, shift: 0, censored: 0, captured: 0, counted: 0};
     panel.columns.forEach((name, i) => { point[name] = row[i]; });
@@ -392,7 +392,7 @@ window.recoil = (() => {
     const number = element("input", {type: "number", min: String(least), step: "any"});
     const html = name.replace(/^(\w)_?(\w)$/, "<i>$1</i><sub>$2</sub>").replace(/^W$/, "<i>W</i>");
     const words = element("span");
-    words.innerHTML = html + " [" + unit + "]";  // of our own making, nothing that was read
+    words.innerHTML = html + " [" + unit + "]";  // contains no text from the data
     slider.setAttribute("aria-label", name + " [" + unit + "], slider");
     number.setAttribute("aria-label", name + " [" + unit + "]");
     const own = {value: fitted};
@@ -463,8 +463,8 @@ window.recoil = (() => {
       const capture = captureVelocity(diameter, values);
       path.setAttribute("d", curvePath(panel, frame, diameter, values, capture));
       svg.append(path);
-      const stays = capture === 0 ? "every sphere comes back" : isNaN(capture)
-          ? "no sphere comes back" : "capture below V* = " + shown(capture) + " m/s";
+      const stays = capture === 0 ? "no sphere is captured" : isNaN(capture)
+          ? "every sphere is captured" : "capture below V* = " + shown(capture) + " m/s";
       result.textContent = "Dash-dotted: " + stays + "; chi2 of the " + panel.points.length +
           " points shown is " + shown(misfit(panel, diameter, values)) + ", under the fit " +
           shown(panel.chi2) + ".";

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int picture_width = 560;               // [px]
 constexpr int picture_height = 380;              // [px]
-constexpr std::ptrdiff_t most_lines = 25;        // on the terminal, without --verbose
-constexpr std::size_t most_rows_of_answer = 12;  // of a table there
+constexpr std::ptrdiff_t most_lines = 25;        // of the answer on the terminal
+constexpr std::size_t most_rows_of_answer = 12;  // of a table in this answer
 constexpr std::size_t fewest_rows_of_answer = 3;
 
 /// "ammonium fluorescein on molybdenum, 60 points"
@@ -52,7 +52,7 @@ Sentence capture_words(const Analysis& a) {
     }
   }
   std::vector<Sentence> parts;
-  double last = 0.0;  // the diameter that was named last [m]
+  double last = 0.0;  // diameter in the previous part [m]
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const CaptureEstimate* const capture = reference_capture(a, k);
     if (capture == nullptr) continue;
@@ -68,7 +68,7 @@ Sentence capture_words(const Analysis& a) {
   return say("Spheres {}.", join(parts, ", "));
 }
 
-/// Does the model fit? A diagnosis allows for errors of its laws, a fit alone does not.
+/// Whether the model fits. A diagnosis allows for errors of the laws of the model, a fit does not.
 Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
   if (diagnosis == nullptr || !a.fitted.data.noise.sd_stated) return quality_words(a.fitted);
   if (!diagnosis->answer_if<Adequate>()) {
@@ -85,7 +85,7 @@ Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
   return tests_the_curve(*diagnosis) ? "The model fits." : "These points cannot test the model.";
 }
 
-/// A parameter of the model that its upper bound holds back.
+/// A warning about damping parameters at their upper bound.
 Sentence bound_words(const FitResult& f) {
   const std::vector<std::size_t> held = held_back_dampings(f);
   if (held.empty()) return {};
@@ -93,7 +93,7 @@ Sentence bound_words(const FitResult& f) {
              joined(held, ", ", [&](std::size_t j) { return symbol(f.model.slots[j].label()); }));
 }
 
-/// The point without which the others fit, with the verdict on them.
+/// The outlying point, and the fit without it.
 Sentence odd_point_words(const Analysis& a) {
   if (!a.uncertainty.odd_point) return {};
   const OddPoint& odd = *a.uncertainty.odd_point;
@@ -116,7 +116,7 @@ Sentence odd_point_words(const Analysis& a) {
       point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
 }
 
-/// "C_H", or "V*(4.9 um)" with the unit as people write it.
+/// The name of a quantity with its symbol and unit marked: "C_H", "V*(4.9 um)".
 Sentence quantity_words(const std::string& name) {
   const auto um = name.find("um)");
   if (um == std::string::npos) return symbol(name);
@@ -125,7 +125,7 @@ Sentence quantity_words(const std::string& name) {
 
 /// "In 200 simulated data sets like this one the 95 % interval of C_H contained the truth in 94 %,
 /// that of V*(4.9 um) in 93 %."
-/// @param below shares that are told
+/// @param below only coverages below this are reported [1]
 Sentence own_design_words(const Analysis& a, double below) {
   std::vector<Sentence> parts;
   int datasets = 0;
@@ -141,7 +141,7 @@ Sentence own_design_words(const Analysis& a, double below) {
              percent(a.uncertainty.options.level), join(parts, ", "));
 }
 
-/// e(V) with all sizes: the only panel, or all of them in one picture.
+/// e(V) for all sizes: the panel if there is one, otherwise one picture with all sizes.
 Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
   if (panels.size() == 1) return {panels};
   Sentence caption = say("Points, fit and its {} band.", percent(a.uncertainty.options.level));
@@ -149,7 +149,7 @@ Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
   return {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
 }
 
-/// All warnings, the gravest first, without the one that the verdict says.
+/// All warnings, the most important first, without the noise warning, which the verdict includes.
 std::vector<Sentence> warnings_of(const Analysis& a) {
   std::vector<Sentence> warnings = all_warnings(a);
   if (a.fitted.usable && a.fitted.noise_verdict == NoiseVerdict::exceeded) {
@@ -158,8 +158,8 @@ std::vector<Sentence> warnings_of(const Analysis& a) {
   return warnings;
 }
 
-/// The gravest warning, and how many more there are.
-Blocks gravest_warning(const std::vector<Sentence>& warnings) {
+/// The first warning, and the number of other warnings.
+Blocks first_warning(const std::vector<Sentence>& warnings) {
   if (warnings.empty()) return {};
   Sentence text = as_sentence(warnings.front());
   if (warnings.size() > 1) {
@@ -168,18 +168,17 @@ Blocks gravest_warning(const std::vector<Sentence>& warnings) {
   return {Banner{"warning", text}};
 }
 
-/// Every diameter by itself, and the residuals of every dataset.
+/// One picture for each diameter, and the residuals of each dataset.
 Section sizes_section(const Analysis& a, std::vector<Figure> panels,
                       const RestitutionSummary& summary) {
-  if (panels.size() == 1) panels.clear();  // the answer shows it
+  if (panels.size() == 1) panels.clear();  // the answer shows this panel
   for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
   return detail_section("sizes", "Sizes and residuals",
                         {Figures{std::move(panels)}, restitution_table(summary, a.datasets)});
 }
 
-/// Why intervals are missing.
-std::vector<Sentence> interval_sentences(const Analysis& a) {
-  std::vector<Sentence> sentences;
+Section certainty_section(const Analysis& a) {
+  std::vector<Sentence> sentences = {identifiability_words(a.fitted, a.uncertainty)};
   for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
     if (!slot.free || slot.is_constant()) continue;
@@ -189,12 +188,6 @@ std::vector<Sentence> interval_sentences(const Analysis& a) {
                             parameter_words(a.fitted.model, s, a.datasets),
                             missing_words(interval)));
   }
-  return sentences;
-}
-
-Section certainty_section(const Analysis& a) {
-  std::vector<Sentence> sentences = {identifiability_words(a.fitted, a.uncertainty)};
-  for (Sentence& words : interval_sentences(a)) sentences.push_back(std::move(words));
   if (a.uncertainty.posterior) {
     sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
     sentences.push_back(leave_one_out_words(a));
@@ -227,11 +220,8 @@ Section comparison_section(const Analysis& a) {
   return detail_section("comparison", "Two points, other laws, other models", std::move(blocks));
 }
 
-/// @param said how many of `warnings` the answer shows
-Section warnings_section(const Analysis& a, const std::vector<Sentence>& warnings,
-                         std::size_t said) {
-  std::vector<Sentence> sentences(warnings.begin() + static_cast<std::ptrdiff_t>(said),
-                                  warnings.end());
+/// @param sentences the warnings that the answer does not show
+Section warnings_section(const Analysis& a, std::vector<Sentence> sentences) {
   for (const std::string& words : exceeded_limits(a.validity, a.datasets)) {
     sentences.push_back("limit of the model: " + words);
   }
@@ -255,7 +245,7 @@ Section inputs_section(const Analysis& a) {
   return detail_section("inputs", "Data, model and method", std::move(blocks));
 }
 
-/// The commands that answer the next questions.
+/// The commands for the next steps.
 Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
@@ -265,7 +255,7 @@ Section next_section(const Analysis& a) {
                                       code("recoil report " + file), code("--verbose"))}});
 }
 
-/// `section` with at most `rows` rows in its tables, and how many more there are.
+/// `section` with tables of at most `rows` rows. The last row states how many rows are omitted.
 Section shortened(Section section, std::size_t rows) {
   for (Block& block : section.blocks) {
     auto* const table = std::get_if<Table>(&block.content());
@@ -282,10 +272,10 @@ Section shortened(Section section, std::size_t rows) {
 std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                                   const std::string& diagnosis_page) {
   Section answer{"answer", a.spec.id, subtitle_of(a)};
-  const std::vector<Sentence> warnings = warnings_of(a);
+  std::vector<Sentence> warnings = warnings_of(a);
   if (!a.fitted.usable) {
     answer.blocks = {Paragraph{"The fit failed: " + a.fitted.failure}};
-    return {answer, warnings_section(a, warnings, 0), inputs_section(a)};
+    return {answer, warnings_section(a, warnings), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
   std::vector<Sentence> leads = {bound_words(a.fitted), verdict_words(a, diagnosis),
@@ -304,11 +294,12 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                                      {two_point_table(a, a.uncertainty.two_point.front())}));
   }
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
-  sections.push_back(shown_section("warning", "", gravest_warning(warnings)));
+  sections.push_back(shown_section("warning", "", first_warning(warnings)));
   sections.push_back(sizes_section(a, std::move(panels), summary));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));
-  sections.push_back(warnings_section(a, warnings, std::min<std::size_t>(1, warnings.size())));
+  if (!warnings.empty()) warnings.erase(warnings.begin());  // the answer shows it
+  sections.push_back(warnings_section(a, std::move(warnings)));
   sections.push_back(inputs_section(a));
   return sections;
 }
@@ -333,10 +324,10 @@ std::string fit_text(const Analysis& a, Importance least, std::size_t columns) {
   std::vector<Section> answer, details;
   for (Section& section : fit_sections(a)) {
     const bool detail = section.importance == Importance::detail;
-    if (!detail && !answer.empty()) section.title = {};  // the tables say it
+    if (!detail && !answer.empty()) section.title = {};  // the headings of the tables suffice
     (detail ? details : answer).push_back(std::move(section));
   }
-  constexpr double far_below = 0.05;  // the level
+  constexpr double far_below = 0.05;  // a coverage this much below the level is reported
   const Sentence rates = own_design_words(a, a.uncertainty.options.level - far_below);
   if (!rates.empty()) answer.front().blocks.emplace_back(Paragraph{rates});
   answer.push_back(next_section(a));

@@ -9,32 +9,33 @@
 #include "document/document.hpp"
 #include "document/terminal.hpp"
 
-/// A fit: its pictures, its tables, its text and its page.
+/// Pictures, tables, text and page of a fit.
 namespace recoil {
 
-/// Where points average over sizes.
+/// A caption for curves of points that average over sizes.
 inline constexpr const char* mean_curve_words =
     "The curve is the mean of the spheres that rebound: it rises again where only the largest do.";
 
-/// e against V of the whole fit: points and curves in one plot, told apart by diameter or, in a fit
-/// of several datasets, by dataset.
+/// e against V of the whole fit: points and curves in one plot, with one colour and mark for each
+/// diameter or, in a fit of several datasets, for each dataset.
+/// @param width, height of the picture [px]
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height);
 
-/// e against V of every diameter: points, fit and its band, two-point calibration, V*; with what
-/// `explore_script` needs where it can compute the model.
+/// e against V for every diameter: points, fit with its band, two-point calibration and V*. A
+/// figure includes the data for `explore_script` if the script can compute the model.
 std::vector<Figure> restitution_figures(const Analysis& analysis);
 
-/// The JavaScript that explores these pictures (explore.js): controls of C_H, C_A, f0 or W and the
-/// diameter, the curve for them, its capture velocity and chi2.
+/// The JavaScript that adds controls to these pictures (explore.js). A reader changes C_H, C_A, f0
+/// or W and the diameter, and sees the curve, its capture velocity and its chi2.
 std::string_view explore_script();
 
-/// Weighted residuals against V, one picture per dataset.
+/// Weighted residuals against V, one picture for each dataset.
 std::vector<Figure> residual_figures(const Analysis& analysis);
 
-/// V* against diameter beside older capture models, one picture per dataset.
+/// V* against diameter, compared with older capture models, one picture for each dataset.
 std::vector<Figure> capture_figures(const Analysis& analysis);
 
-/// Capture velocity and its interval by diameter, one column per dataset.
+/// Capture velocity with its interval by diameter, one column for each dataset.
 Table capture_table(const Analysis& analysis);
 
 /// Estimate, standard error and recommended interval of every parameter.
@@ -43,23 +44,24 @@ Table parameters_table(const Analysis& analysis);
 /// Stated and fitted value of every uncertain constant of the materials.
 Table constants_table(const Analysis& analysis);
 
-/// Mean, deviation and interval of the posterior, with the convergence of the sampler.
+/// Mean, standard deviation and interval of the posterior, with the convergence of the sampler.
 Table posterior_table(const Analysis& analysis);
 
-/// C_H, C_A and f0 by two points, by all points with the same f0, and with f0 fitted.
+/// C_H, C_A and f0 from two points, from all points with the same f0, and with f0 fitted.
 Table two_point_table(const Analysis& analysis, const TwoPointComparison& comparison);
 
-/// How the fit was made and how well it meets the points.
+/// The method of the fit and its goodness.
 Table statistics_table(const Analysis& analysis);
 
-/// The constants of every body, and the contact that follows from them on every dataset.
+/// The material constants of every body.
 Table materials_table(const Analysis& analysis);
+/// The constants of the contact for every dataset.
 Table contact_table(const Analysis& analysis);
 
-/// The result of a fit: first the answer (verdict, V*, parameters, diagnosis, the gravest warning),
-/// then the details. The terminal and the page show the same list.
+/// The result of a fit, for the terminal and the page: first the answer (verdict, V*, parameters,
+/// diagnosis, the most important warning), then the details.
 /// @param diagnosis may be null
-/// @param diagnosis_page address of its page; empty without one
+/// @param diagnosis_page address of the page of the diagnosis; may be empty
 std::vector<Section> fit_sections(const Analysis& analysis, const Diagnosis* diagnosis = nullptr,
                                   const std::string& diagnosis_page = "");
 
@@ -67,12 +69,12 @@ std::vector<Section> fit_sections(const Analysis& analysis, const Diagnosis* dia
 Document fit_document(const Analysis& analysis, const Diagnosis* diagnosis = nullptr,
                       const std::string& diagnosis_page = "");
 
-/// The answer as `recoil fit` prints it, at most 25 lines, or with the details.
+/// The output of `recoil fit`: the answer in at most 25 lines, or the answer with the details.
 std::string fit_text(const Analysis& analysis, Importance least,
                      std::size_t columns = terminal_columns);
 
-/// One self-contained page of less than 1 MB. Its script saves the pictures.
-/// @throws ComputationError when the fit is not usable.
+/// The page as one self-contained file.
+/// @throws ComputationError if the fit is not usable
 std::string fit_html(const Analysis& analysis, const Diagnosis* diagnosis = nullptr,
                      const std::string& diagnosis_page = "");
 

@@ -26,7 +26,7 @@ plot::Points captured_layer(plot::Points points) {
   return points;
 }
 
-/// The capture velocity as a line with its interval as a strip; `capture_words` labels it.
+/// Adds the capture velocity as a line and its interval as a shaded region.
 void add_capture(const CaptureEstimate& capture, const Axes& axes, plot::Plot& shown) {
   const Interval& interval = capture.interval;
   const auto inside = [&](double v) {
@@ -100,7 +100,7 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   return {.name = {}, .title = title, .height = 375, .plots = {std::move(shown)}};
 }
 
-/// One point in how many is drawn.
+/// The stride of the drawn points: one point in this many is drawn.
 std::size_t drawn_every(const Panel& panel) { return panel.points.size() / most_panel_points + 1; }
 
 Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
@@ -114,9 +114,9 @@ Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
   return text;
 }
 
-// ---- what the script of the page explores ------------------------------------------------------
+// ---- data for the script of the page -----------------------------------------------------------
 
-/// What the script reads of a point: names and values.
+/// The values of a point that the script reads, by name.
 const std::vector<std::pair<const char*, double (*)(const Observation&)>>& explored_values() {
   using Point = const Observation&;
   static const std::vector<std::pair<const char*, double (*)(Point)>> values = {
@@ -136,7 +136,7 @@ const std::vector<std::pair<const char*, double (*)(const Observation&)>>& explo
   return values;
 }
 
-/// To nine digits, written as a quotient of whole numbers, so that its shortest text is short.
+/// `value` rounded to nine significant digits, so that its shortest decimal text is short.
 double rounded(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 8.0);
@@ -144,8 +144,8 @@ double rounded(double value) {
                     : std::round(value / unit) * unit;
 }
 
-/// The points of a panel that are drawn: their chi2, rows of numbers and the names of the columns.
-/// A column of zeros is left out.
+/// Adds the drawn points of a panel: their chi2, the names of the columns and one row for each
+/// point. Columns that contain only zeros are omitted.
 void add_explored_points(const Analysis& analysis, const Panel& panel, Json& out) {
   std::vector<const Observation*> drawn;
   double chi2 = 0.0;
@@ -169,9 +169,9 @@ void add_explored_points(const Analysis& analysis, const Panel& panel, Json& out
   }
 }
 
-/// What `explore_script` needs, as JSON: law, materials and fitted values in SI units, the ranges
-/// of the axes, and the points drawn with their weights. Empty where it cannot compute the model:
-/// where mechanisms act, points average over sizes or have no e, or the surface is a sphere.
+/// The JSON for `explore_script`: law, materials and fitted values in SI units, the ranges of the
+/// axes, and the drawn points with their weights. Empty if the script cannot compute the model:
+/// with mechanisms, for points that average over sizes or have no e, or for a spherical surface.
 std::string explored_panel(const Analysis& analysis, const Panel& panel, const plot::Plot& shown) {
   const FitResult& fit = analysis.fitted;
   const ImpactModel& model = fit.model;
@@ -208,7 +208,8 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel, const p
 
 // ---- residuals ---------------------------------------------------------------------------------
 
-/// Unit of the displayed residuals: 1, or the estimated noise where no deviation is stated.
+/// The unit of the displayed residuals: 1, or the estimated noise scale if no standard deviations
+/// are stated.
 double residual_unit(const Analysis& analysis) {
   const double scale = analysis.fitted.noise_scale;
   return !analysis.fitted.data.noise.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
@@ -233,7 +234,7 @@ std::vector<ResidualRow> residual_rows(const Analysis& analysis, std::size_t dat
   return rows;
 }
 
-/// Residuals of one dataset against velocity, told apart by diameter while there are few.
+/// Residuals of one dataset against velocity. Few diameters have different marks.
 plot::Plot residual_plot(const std::vector<ResidualRow>& rows) {
   std::map<double, plot::Points> by_diameter;
   plot::Points captured;
@@ -260,12 +261,12 @@ plot::Plot residual_plot(const std::vector<ResidualRow>& rows) {
         plot::Rule{plot::Direction::horizontal, at, {plot::grey, 1.0, plot::Dash::dashes}});
   }
   shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.2}});
-  const bool told_apart = by_diameter.size() <= plot::markers.size();
+  const bool distinct = by_diameter.size() <= plot::markers.size();
   std::size_t index = 0;
   for (auto& [diameter, points] : by_diameter) {
-    points.marker = plot::marker(told_apart ? index++ : 0);
+    points.marker = plot::marker(distinct ? index++ : 0);
     points.size = 0.65;
-    if (told_apart) points.name = diameter_label(diameter);
+    if (distinct) points.name = diameter_label(diameter);
     shown.layers.push_back(std::move(points));
   }
   if (!captured.x.empty()) shown.layers.push_back(captured_layer(std::move(captured)));
@@ -286,14 +287,14 @@ Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRo
 
 // ---- capture models ----------------------------------------------------------------------------
 
-/// One look per model, told apart by colour and dashes.
+/// One stroke for each model. Colours and dashes differ.
 constexpr std::array<plot::Stroke, 5> strokes = {{{plot::blue, 2.0},
                                                   {plot::ink, 2.0, plot::Dash::long_dashes},
                                                   {plot::vermillion, 2.0, plot::Dash::dots},
                                                   {plot::green, 2.0, plot::Dash::dash_dot},
                                                   {plot::purple, 2.0, plot::Dash::dashes}}};
 
-/// All velocities shown, with room at both ends.
+/// The range of all shown velocities [m/s], with a margin.
 plot::Range capture_range(const CaptureComparison& comparison) {
   std::vector<double> all;
   for (const CaptureCurve& curve : comparison.curves) {
@@ -350,7 +351,7 @@ plot::Plot capture_plot(const CaptureComparison& comparison, const Dataset& data
   return shown;
 }
 
-/// The inputs of the curves, and which curves are missing.
+/// The inputs of the curves, the published values, and which curves are missing.
 Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dataset) {
   std::vector<Sentence> words = {
       say("Older models, from {W_A} = {:.3g} {J/m2} and {K} = {:.4g} GPa; those of Dahneke and "

@@ -20,10 +20,9 @@ Cell number_at(const std::vector<double>& values, std::size_t i, const Notation&
 
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
-Sentence labelled(const Analysis& a, std::size_t slot) {
-  const std::string_view name = a.fitted.model.slots[slot].parameter->unit;
-  const Sentence label = parameter_words(a.fitted.model, slot, a.datasets);
-  return name == "1" ? label : label + " [" + unit(name) + "]";
+Sentence label_with_unit(const Analysis& a, std::size_t slot) {
+  return name_with_unit(parameter_words(a.fitted.model, slot, a.datasets),
+                        a.fitted.model.slots[slot].parameter->unit);
 }
 
 std::size_t free_parameters(const FitResult& fitted) {
@@ -33,7 +32,7 @@ std::size_t free_parameters(const FitResult& fitted) {
 }
 
 Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
-  if (without_adhesion(a, capture.dataset)) return no_capture_words;
+  if (without_adhesion(a, capture.dataset)) return "none (no adhesion)";
   if (capture.above && capture.below && *capture.above < *capture.below) {
     return say("{:.3g} to {:.3g}", *capture.above, *capture.below);
   }
@@ -43,7 +42,7 @@ Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
   return with_interval(capture.value, capture.interval, padded(3));
 }
 
-/// What is special about a parameter, in a word or two.
+/// A short remark about a parameter; may be empty.
 std::string remark_of(const FitResult& f, std::size_t s, const Interval& interval) {
   if (!f.model.slots[s].free) return followed_in(f.model, s) ? "follows the materials" : "fixed";
   if (interval.note) {
@@ -59,15 +58,15 @@ Cell p_value_cell(const FitResult& f) {
   return Number{f.p_value, probability()};
 }
 
-/// Points less free parameters, and why there may be fewer.
+/// The degrees of freedom, with the number of captured points that do not count.
 Cell degrees_of_freedom_cell(const FitResult& f) {
-  const int silent =
+  const int excluded =
       static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
-  if (!f.data.noise.sd_stated || f.data.noise.spec.student || silent <= 0) {
+  if (!f.data.noise.sd_stated || f.data.noise.spec.student || excluded <= 0) {
     return whole(std::max(0, f.dof));
   }
-  return say("{} ({} captured point{} excluded)", std::max(0, f.dof), silent,
-             silent == 1 ? " is" : "s are");
+  return say("{} ({} captured point{} excluded)", std::max(0, f.dof), excluded,
+             excluded == 1 ? " is" : "s are");
 }
 
 std::string_view strategy_words(Strategy strategy) {
@@ -97,8 +96,8 @@ Table capture_table(const Analysis& a) {
     cells[capture.dataset] = capture_cell(a, capture);
   }
   Table table;
-  table.compact = a.datasets.size() > 1;
   table.columns = {{say("{d}"), size.name}};
+  table.compact = a.datasets.size() > 1;
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     table.columns.push_back({a.datasets.size() > 1
                                  ? say("{V*} [m/s], {}", short_name(a.datasets, k))
@@ -119,9 +118,9 @@ Table capture_table(const Analysis& a) {
 Table parameters_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   Table table;
-  table.compact = true;
   table.columns = {
       {"parameter"}, {say("estimate {+/-} error")}, {level_of(a) + " interval", "", true}};
+  table.compact = true;
   const bool adheres = adheres_anywhere(f.model);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
@@ -132,7 +131,7 @@ Table parameters_table(const Analysis& a) {
     }
     if (dry_loss_mechanism(a.spec.loss) != nullptr &&
         slot.parameter->role == ParameterRole::hertz_damping) {
-      continue;  // that law takes its place
+      continue;  // the law of loss replaces C_H
     }
     const Interval interval = recommended_interval(intervals_of(a, s));
     const bool follows = followed_in(f.model, s).has_value();
@@ -148,7 +147,7 @@ Table parameters_table(const Analysis& a) {
                  : words_of_cell(ends) + Sentence(", " + remark);
     }
     table.rows.push_back(
-        {labelled(a, s),
+        {label_with_unit(a, s),
          flat ? Cell() : Cell(Number{acting_value(f.model, f.theta, s), significant(4), error}),
          std::move(ends)});
   }
@@ -198,7 +197,7 @@ Table posterior_table(const Analysis& a) {
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const PosteriorMarginal& m = found.parameters[j];
     if (!a.fitted.model.slots[j].moves()) continue;
-    table.rows.push_back({labelled(a, j), Number{m.mean}, Number{m.sd, significant(2)},
+    table.rows.push_back({label_with_unit(a, j), Number{m.mean}, Number{m.sd, significant(2)},
                           interval_cell(m.interval), Number{m.check.r_hat, fixed(4)},
                           Number{m.check.bulk, fixed(0)}, Number{m.check.tail, fixed(0)}});
   }
@@ -210,24 +209,12 @@ Table posterior_table(const Analysis& a) {
   return table;
 }
 
-Sentence compared_words(ComparisonWay row) {
-  switch (row) {
-    case ComparisonWay::two_point:
-      return "two points";
-    case ComparisonWay::full:
-      return say("all points, same {f0}");
-    case ComparisonWay::full_f0_free:
-      return say("all points, {f0} fitted");
-  }
-  return {};
-}
-
 Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   Table table;
-  table.compact = true;
   table.columns = {{"calibration"},      {symbol("C_H"), "s/m"}, {symbol("C_A"), "s/m"},
                    {say("{f0}"), "N/m"}, {say("rms of {e}")},    {"held out"}};
+  table.compact = true;
   const std::size_t d = comparison.dataset;
   for (const ComparisonRow& row : comparison.rows) {
     const auto f0 = row.theta.empty() ? std::nullopt
@@ -235,7 +222,8 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
     table.rows.push_back(
         {row.row == ComparisonWay::two_point
              ? say("two points of {}", diameter_sentence(comparison.result.diameter))
-             : compared_words(row.row),
+         : row.row == ComparisonWay::full ? say("all points, same {f0}")
+                                          : say("all points, {f0} fitted"),
          number_at(row.theta, f.model.slot_C_H[d], significant(3)),
          number_at(row.theta, f.model.slot_C_A[d], significant(3)),
          cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, significant(2))),

@@ -111,35 +111,39 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
 std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset) {
   std::set<std::string> surfaces;
   for (const Dataset& one : datasets) surfaces.insert(one.system.surface.name);
-  const bool tell = surfaces.size() == datasets.size() && !surfaces.contains("");
-  return tell ? datasets[dataset].system.surface.name : datasets[dataset].id;
+  const bool all_differ = surfaces.size() == datasets.size() && !surfaces.contains("");
+  return all_differ ? datasets[dataset].system.surface.name : datasets[dataset].id;
 }
 
 std::string constant_words(const ImpactModel& model, std::size_t constant,
                            const std::vector<Dataset>& datasets) {
-  const UncertainConstant& of = model.constants[constant];
-  const ImpactSystem& system = datasets[of.datasets.front()].system;
-  const std::string& name = of.body == Body::particle ? system.particle.name : system.surface.name;
-  return fmt::format("{} of {}", words_of_constant(of.constant),
-                     name.empty() ? "the " + std::string(name_of(of.body)) : name);
+  const UncertainConstant& one = model.constants[constant];
+  const ImpactSystem& system = datasets[one.datasets.front()].system;
+  const std::string& name = one.body == Body::particle ? system.particle.name : system.surface.name;
+  return fmt::format("{} of {}", words_of_constant(one.constant),
+                     name.empty() ? "the " + std::string(name_of(one.body)) : name);
 }
 
 Sentence parameter_words(const ImpactModel& model, std::size_t slot,
                          const std::vector<Dataset>& datasets) {
-  const ParameterSlot& of = model.slots[slot];
-  if (of.is_constant()) return constant_words(model, slot - model.first_constant(), datasets);
-  const std::string name(of.parameter->name);
-  const std::string label = of.label();
+  const ParameterSlot& one = model.slots[slot];
+  if (one.is_constant()) return constant_words(model, slot - model.first_constant(), datasets);
+  const std::string name(one.parameter->name);
+  const std::string label = one.label();
   std::string owner = label.size() > name.size()
                           ? label.substr(name.size() + 1, label.size() - name.size() - 2)
                           : std::string();
   for (std::size_t k = 0; k < datasets.size(); ++k) {
     if (owner == datasets[k].id) owner = short_name(datasets, k);
   }
-  if (of.mechanism() == nullptr) {
+  if (one.mechanism() == nullptr) {
     return symbol(owner.empty() ? name : fmt::format("{}[{}]", name, owner));
   }
   return words_of(name) + (owner.empty() ? "" : fmt::format(" ({})", owner));
+}
+
+Sentence name_with_unit(const Sentence& name, std::string_view unit_name) {
+  return unit_name == "1" ? name : name + " [" + unit(unit_name) + "]";
 }
 
 bool without_adhesion(const Analysis& analysis, std::size_t dataset) {

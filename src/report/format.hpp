@@ -9,38 +9,36 @@
 #include "analysis/analysis.hpp"
 #include "document/document.hpp"
 #include "document/number.hpp"
-#include "document/terminal.hpp"
 
-/// Numbers and sizes as text, and lookups in an Analysis that stay in range when a stage was
-/// skipped.
+/// Numbers, sizes and names as text, and access to parts of an Analysis that may be missing.
 namespace recoil {
 
-/// An interval in a table; an empty cell where there is none.
+/// An interval in a table; an empty cell if there is none.
 Cell interval_cell(const Interval& interval, const Notation& notation = padded(4));
 
-/// A diameter in micrometres, three or more digits: "4.90".
+/// A diameter [m] in micrometres, with at least three digits: "4.90".
 std::string diameter_text(double diameter);
 
-/// The common unit of several sizes: mm where all are 1 mm or more, else um.
+/// The common unit of several diameters [m]: mm if all are at least 1 mm, otherwise um.
 struct SizeUnit {
   double metres;
-  const char* name;  ///< in words and tables
+  const char* name;  ///< in text and tables
   const char* sign;  ///< in pictures: "µm"
 };
 SizeUnit size_unit(std::span<const double> diameters);
-/// The unit of all points.
+/// The common unit of the diameters of all points.
 SizeUnit size_unit(std::span<const Dataset> datasets);
-/// A diameter [m] in that unit, without it: "4.90".
+/// A diameter [m] in this unit, without the unit: "4.90".
 std::string size_text(double diameter, const SizeUnit& unit);
 
-/// The same in a picture, in the unit of this one: "4.90 µm", "42.0 mm"
+/// A diameter [m] with its unit, for a picture: "4.90 µm", "42.0 mm".
 std::string diameter_label(double diameter);
-/// "4.9 um", "42 mm"
+/// A diameter [m] with its unit, for text: "4.9 um", "42 mm".
 std::string diameter_words(double diameter);
-/// The same, the unit marked as one.
+/// `diameter_words` with the unit marked as a unit.
 Sentence diameter_sentence(double diameter);
 
-/// The words for one value of an enum.
+/// The text for one value of an enum.
 template <NamedEnum Enum>
 struct Phrase {
   Enum value;
@@ -58,27 +56,28 @@ constexpr const Entry& phrase_for(const Entry (&entries)[Count], decltype(Entry:
 /// "p = 0.03", "p < 1e-6".
 std::string p_words(double p);
 
-/// A value with its interval, where it has one: "0.958 [0.912, 0.984]".
+/// A value with its interval, if there is one: "0.958 [0.912, 0.984]".
 Number with_interval(double value, const Interval& interval, const Notation& notation);
 
-/// The capture velocity at the diameter for which the parameters of a dataset are quoted; null
-/// where none was found.
+/// The capture velocity of a dataset at the diameter nearest to its reference diameter; null if
+/// none was found.
 const CaptureEstimate* reference_capture(const Analysis& analysis, std::size_t dataset);
 
-/// A page with these sections. The heading of the page stands for the title of the first.
+/// A page with these sections. The heading of the page replaces the title of the first section.
 Document page_of(const std::string& title, const std::string& name, std::vector<Section> sections);
 
-/// Every interval of one slot; with the reason filled in when the assessment has none for it.
+/// All intervals of one slot. Missing intervals state why they are missing.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
 
-/// (label, sentence) of each provenance among the datasets, without repetition.
+/// Label and sentence of each provenance among the datasets, without repetition.
 std::vector<std::pair<std::string, std::string>> provenances(const std::vector<Dataset>& datasets);
 
-/// The conditions of an impact on `dataset` at its reference diameter, under the fit.
+/// The conditions of an impact at `velocity` [m/s] with the fitted parameters and the reference
+/// diameter of the dataset.
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
                                       double velocity);
 
-/// Name of a dataset among the others of its fit: its surface where all surfaces differ, else its
+/// A short name for a dataset: its surface if all datasets have different surfaces, otherwise its
 /// id.
 std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset);
 
@@ -86,25 +85,24 @@ std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset
 std::string constant_words(const ImpactModel& model, std::size_t constant,
                            const std::vector<Dataset>& datasets);
 
-/// A parameter as people write it: the symbol of one of the base model, the words of another. What
-/// belongs to one dataset has its short name.
+/// The name of a parameter: a symbol for the base model, words for a mechanism. A parameter of one
+/// dataset includes its short name.
 Sentence parameter_words(const ImpactModel& model, std::size_t slot,
                          const std::vector<Dataset>& datasets);
 
-/// Is there no adhesion on `dataset`?
+/// A name with its unit in brackets: "C_H [s/m]"; the name alone for the unit "1".
+Sentence name_with_unit(const Sentence& name, std::string_view unit_name);
+
+/// True if there is no adhesion on `dataset`.
 bool without_adhesion(const Analysis& analysis, std::size_t dataset);
 
-/// Is there adhesion on any dataset?
+/// True if there is adhesion on any dataset.
 bool adheres_anywhere(const ImpactModel& model);
 
-/// Shown in place of a capture velocity where there is no adhesion.
-inline constexpr const char* no_capture_words = "none (no adhesion)";
-
-/// A list of whole sentences: a capital at the start and a full stop at the end. Empty ones are
-/// left out.
+/// A list of complete sentences (`as_sentence`). Empty sentences are omitted.
 List list_of_sentences(const std::vector<Sentence>& sentences);
 
-/// A section of the answer, and one that the answer does without.
+/// A section of the answer, and a section of the details.
 Section shown_section(const char* id, const char* title, Blocks blocks);
 Section detail_section(const char* id, const char* title, Blocks blocks);
 

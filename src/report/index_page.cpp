@@ -11,9 +11,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
-#include "document/html.hpp"
 #include "json/fit_file.hpp"
-#include "plot/draw.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
 
@@ -24,14 +22,15 @@ constexpr std::size_t most_sizes_listed = 4;
 constexpr int thumbnail_width = 420;   // [px]
 constexpr int thumbnail_height = 270;  // [px]
 
-/// What a card shows of diagnosis.json.
+/// The keys of diagnosis.json that a card shows.
 struct ShownDiagnosis {
   Verdict verdict = Verdict::adequate;
   std::string headline;
   RECOIL_FIELDS(verdict, headline)
 };
 
-/// A fit.json or diagnosis.json of the page.
+/// Parses a fit.json or diagnosis.json.
+/// @param page, file for messages
 template <class File>
 File contents_of(const std::string& page, const std::string& json, const std::string& file) {
   try {
@@ -47,7 +46,7 @@ Cell ends_cell(const std::optional<Ends>& ends) {
   return ends ? Cell(NumberRange{(*ends)[0], (*ends)[1], padded(3)}) : Cell();
 }
 
-/// A sign for each verdict, so that no verdict is told by its colour alone.
+/// A sign for each verdict, so that its meaning does not depend on colour.
 const char* sign_of(Verdict verdict) {
   using enum Verdict;
   static constexpr Phrase<Verdict> phrases[] = {
@@ -55,7 +54,7 @@ const char* sign_of(Verdict verdict) {
   return phrase_for(phrases, verdict).words;
 }
 
-/// Capture velocities of the first sizes, and all free parameters.
+/// Capture velocities of some sizes, and all free parameters.
 Table summary_table(const FitFile& fit) {
   using Capture = FitFile::CaptureVelocity;
   Table table;
@@ -66,7 +65,7 @@ Table summary_table(const FitFile& fit) {
   }
   for (auto& [dataset, all] : captures) {
     const bool several = captures.size() > 1;
-    if (several) all = {all[all.size() / 2]};  // the middle size of each
+    if (several) all = {all[all.size() / 2]};  // the middle size
     if (all.size() > most_sizes_listed) all.resize(most_sizes_listed);
     for (const Capture& capture : all) {
       Sentence name =
@@ -78,27 +77,25 @@ Table summary_table(const FitFile& fit) {
   }
   for (const auto& [label, parameter] : fit.parameters) {
     if (!parameter.free) continue;
-    table.rows.push_back({symbol(label) + " [" + unit(parameter.unit) + "]",
+    table.rows.push_back({name_with_unit(symbol(label), parameter.unit),
                           Number{parameter.value.value.value_or(NAN), significant(3)},
                           ends_cell(recommended_interval(parameter))});
   }
   return table;
 }
 
-/// "reconstruction": the origin of the points.
-std::string origin_of(const std::vector<DatasetEntry>& datasets) {
-  std::vector<std::string> known;
+/// The provenances of the datasets: "measured, reconstruction".
+std::string provenances_of(const std::vector<DatasetEntry>& datasets) {
+  std::vector<std::string_view> known;
   for (const DatasetEntry& dataset : datasets) {
-    std::string origin = to_string(dataset.provenance);
-    if (std::find(known.begin(), known.end(), origin) == known.end()) {
-      known.push_back(std::move(origin));
-    }
+    const std::string_view name = name_of(dataset.provenance);
+    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
   }
   return fmt::format("{}", fmt::join(known, ", "));
 }
 
-/// What the origins of all points mean, once.
-void add_banners(const FitFile& fit, std::vector<Block>& blocks) {
+/// Adds a banner for each provenance that has none yet.
+void add_banners(const FitFile& fit, Blocks& blocks) {
   for (const DatasetEntry& dataset : fit.datasets) {
     const std::string label = to_string(dataset.provenance);
     const bool known = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
@@ -109,8 +106,8 @@ void add_banners(const FitFile& fit, std::vector<Block>& blocks) {
   }
 }
 
-/// The verdict of the diagnosis with a link to its page; nothing without a diagnosis.
-std::vector<Block> verdict_of(const IndexEntry& entry) {
+/// The verdict of the diagnosis with a link to its page; empty without a diagnosis.
+Blocks verdict_of(const IndexEntry& entry) {
   if (entry.diagnosis_json.empty()) return {};
   const auto diagnosis =
       contents_of<ShownDiagnosis>(entry.page, entry.diagnosis_json, "diagnosis.json");
@@ -122,11 +119,12 @@ std::vector<Block> verdict_of(const IndexEntry& entry) {
 
 Section card_of(const IndexEntry& entry, const FitFile& fit) {
   const std::string title = fit.datasets.size() == 1 ? fit.datasets.front().title : "";
-  Section card{fit.fit.id,
-               title.empty() ? fit.fit.id : title,
-               say("{}: {} points, {}", fit.fit.id, fit.dataset.points, origin_of(fit.datasets)),
-               {},
-               entry.page};
+  Section card{
+      fit.fit.id,
+      title.empty() ? fit.fit.id : title,
+      say("{}: {} points, {}", fit.fit.id, fit.dataset.points, provenances_of(fit.datasets)),
+      {},
+      entry.page};
   append(card.blocks, verdict_of(entry));
   if (!entry.picture.empty()) {
     Figure picture{"picture", "", {}, entry.picture};
@@ -140,14 +138,10 @@ Section card_of(const IndexEntry& entry, const FitFile& fit) {
 
 }  // namespace
 
-std::string thumbnail(const Analysis& analysis) {
+plot::Picture thumbnail(const Analysis& analysis) {
   plot::Picture picture = restitution_overview(analysis, thumbnail_width, thumbnail_height);
   picture.name = plot::plot_name("overview-" + analysis.spec.id);  // unique on the index
-  return plot::draw_svg(picture);
-}
-
-std::string thumbnail_csv(const Analysis& analysis) {
-  return plot::csv_of(restitution_overview(analysis, thumbnail_width, thumbnail_height));
+  return picture;
 }
 
 Document index_document(const std::vector<IndexEntry>& entries) {
@@ -166,10 +160,6 @@ Document index_document(const std::vector<IndexEntry>& entries) {
     page.sections.push_back(card_of(entry, fit));
   }
   return page;
-}
-
-std::string html_index(const std::vector<IndexEntry>& entries) {
-  return html_page(index_document(entries));
 }
 
 }  // namespace recoil

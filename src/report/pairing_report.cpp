@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/json.hpp"
-#include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "experiment/flight.hpp"
@@ -19,7 +18,7 @@ namespace {
 
 constexpr double degree = M_PI / 180.0;
 constexpr std::size_t most_rows = 40;
-constexpr double doubtful_purity = 0.9;  // of the pairs, below which the points are not believed
+constexpr double doubtful_purity = 0.9;  // a smaller share of correct pairs causes a warning
 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
@@ -86,12 +85,14 @@ Sentence later_words(const PairingResult& pairs) {
       pairs.expected_returns);
 }
 
+/// Number and means of some impacts.
 struct Selected {
   std::size_t number = 0;
   double restitution = 0.0;
-  double diameter = 0.0;
+  double diameter = 0.0;  ///< [m]
 };
 
+/// The impacts for which `rule` is true.
 template <class Rule>
 Selected selected(const PairingResult& pairs, const Rule& rule) {
   Selected result;
@@ -107,7 +108,7 @@ Selected selected(const PairingResult& pairs, const Rule& rule) {
   return result;
 }
 
-/// What the threshold took away, and what that does to the means.
+/// How many impacts the threshold removes, and its effect on the means.
 Sentence threshold_words(const PassageTable& table, const PairingResult& pairs) {
   if (!pairs.options.threshold) return {};
   const double threshold = *pairs.options.threshold;
@@ -151,10 +152,11 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   std::vector<std::pair<Sentence, Cell>> entries = {
       {"passages", say("{} towards the surface, {} away from it", pairs.down, pairs.up)},
       {"measuring plane", plane_words(pairs)},
-      {"impacts", say("{} pairs; {:.2f} % are correct (estimate: {} of {} foreign passages found a "
-                      "partner, and neighbours may have been exchanged)",
-                      pairs.impacts.size(), 100.0 * pairs.purity(),
-                      std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
+      {"impacts",
+       say("{} pairs, of which an estimated {:.2f} % are correct ({} of {} decoy passages found a "
+           "partner; possible exchanges between neighbours are included)",
+           pairs.impacts.size(), 100.0 * pairs.purity(),
+           std::lround(pairs.decoy_share * as_number(pairs.decoys)), pairs.decoys)},
       {"later", later_words(pairs)},
       {"threshold", threshold_words(table, pairs)},
       {"angle", angle_words(table, pairs)}};
@@ -169,7 +171,7 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   return section;
 }
 
-/// What became of the passages towards the surface that have no rebound.
+/// Estimated numbers of lost, slow and captured spheres among the passages without a rebound.
 Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
   const std::string seen = pairs.options.lost_share
                                ? std::string("as stated")
@@ -302,9 +304,7 @@ Json mean_json(const PointMean& point) {
 
 std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
                          const Averages& averages) {
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["passages"] = passages_json(table);
   out["plane"] = {{"height_m", pairs.height},
                   {"height_sd_m", pairs.refined ? number_or_null(pairs.height_sd) : Json(nullptr)},

@@ -7,13 +7,13 @@
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
 
-/// Impacts found in passages: text and JSON.
+/// The result of `recoil pair`.
 namespace recoil {
 
-/// The means that a fit will see, the first forty.
+/// The first forty points.
 Table averages_table(const Averages& averages);
 
-/// What `recoil pair` prints.
+/// The output of `recoil pair`.
 std::string pairing_text(const PassageTable& table, const PairingResult& pairs,
                          const Averages& averages);
 

@@ -8,11 +8,10 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_panels = 24;  // per page, so that it stays about 1 MB
+constexpr std::size_t most_panels = 24;  // limits the size of a page to about 1 MB
 constexpr std::size_t most_curve_points = 120;
 
-/// Every point goes to the panel of its dataset with the nearest diameter and, among equals, its
-/// own series.
+/// Assigns every point to a panel (see `panels_of`).
 void distribute_points(const Analysis& analysis, std::vector<Panel>& panels) {
   const auto& points = analysis.fitted.data.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -76,7 +75,7 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
   for (const Panel& panel : panels) {
     if (panel.dataset != dataset || panel.capture == nullptr) continue;
     const double edge = panel.capture->interval.lower.value_or(panel.capture->value);
-    // A capture velocity far below the data would squeeze them to the right edge.
+    // The axis extends at most a decade below the slowest point.
     lower = std::min(lower, std::max(std::min(edge, panel.capture->value), slowest / 10.0));
   }
   axes.velocity = {lower / 1.35, upper * 1.25};
@@ -105,7 +104,7 @@ CurveColumns curve_columns(const RestitutionCurve& curve) {
     if (!values.empty()) to.push_back(i < values.size() ? values[i] : NAN);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    // Where the curve rises from capture every point is needed; the plateau can be thinned.
+    // All values are kept where the curve rises steeply above capture.
     const bool steep =
         i + 1 < count &&
         std::abs(curve.restitution[i + 1] - curve.restitution[i]) +

@@ -7,54 +7,54 @@
 #include "analysis/analysis.hpp"
 #include "plot/plot.hpp"
 
-/// What the pictures of e(V) are made of.
+/// Parts of the pictures of e(V).
 namespace recoil {
 
-constexpr std::size_t most_panel_points = 400;  ///< drawn in one panel
+constexpr std::size_t most_panel_points = 400;  ///< points drawn in one panel
 
-/// One diameter of one dataset.
+/// The content of one picture: one diameter of one dataset.
 struct Panel {
   std::size_t dataset = 0;
-  double diameter = 0.0;
+  double diameter = 0.0;  ///< [m]
   std::string series;
   const RestitutionCurve* curve = nullptr;
   const CaptureEstimate* capture = nullptr;
-  std::vector<std::size_t> points;
+  std::vector<std::size_t> points;  ///< indices
 };
 
-/// The panels of a fit: one for each curve, or for each diameter where no curves were made. Every
-/// point goes to the panel of its dataset with the nearest diameter and, among equals, its own
-/// series. `analysis` must outlive the panels.
+/// The panels of a fit: one for each curve, or for each diameter if there are no curves. A point
+/// belongs to the panel of its dataset with the nearest diameter and, if several are equally near,
+/// with its own series. `analysis` must outlive the panels.
 std::vector<Panel> panels_of(const Analysis& analysis);
 
-/// Common axes of the panels of one dataset, so that they can be compared.
+/// The common axes of all panels of a dataset.
 struct Axes {
-  plot::Range velocity;
-  double top = 1.05;
+  plot::Range velocity;  ///< [m/s]
+  double top = 1.05;     ///< upper end of the axis of e
 };
 Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::size_t dataset);
 
-/// The axis of incident velocities, logarithmic.
+/// A logarithmic axis of incident velocities.
 plot::Axis velocity_axis(plot::Range range);
 
-/// The axis of e from 0.
+/// An axis of e from 0 to `top`.
 plot::Axis restitution_axis(double top);
 
-/// A curve in columns, thinned where it is flat.
+/// The values of a curve. Flat parts are thinned.
 struct CurveColumns {
   std::vector<double> velocity, restitution, lower, upper, two_point;
 };
 CurveColumns curve_columns(const RestitutionCurve& curve);
 
-/// The points of a panel in columns, thinned to `most_panel_points`.
+/// The values of the points of a panel, thinned to `most_panel_points`.
 struct PointColumns {
-  std::vector<double> velocity, restitution, sd;  ///< of rebounds
-  std::vector<double> captured;                   ///< velocities
+  std::vector<double> velocity, restitution, sd;  ///< points with rebounds
+  std::vector<double> captured;                   ///< velocities of captured points [m/s]
 };
 PointColumns point_columns(const Analysis& analysis, const std::vector<std::size_t>& points);
 
-/// The rebounds as a layer, with error bars where standard deviations are stated; nothing to show:
-/// no layer.
+/// The points with rebounds as a layer, with error bars if standard deviations are stated; nullopt
+/// if there are none.
 std::optional<plot::Points> rebound_layer(const Analysis& analysis, const PointColumns& columns,
                                           const std::string& name);
 

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/json.hpp"
-#include "core/program.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
 #include "predict/validity.hpp"
 #include "report/format.hpp"
+#include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {
@@ -19,12 +19,6 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_places = 3;
-
-Notation two_digit_percent() {
-  Notation notation = significant(2);
-  notation.scale = 100.0;
-  return notation;
-}
 
 Cell impacts_cell(const std::optional<double>& impacts) {
   return impacts ? Cell(whole(std::ceil(*impacts))) : Cell("no number");
@@ -141,11 +135,12 @@ Table errors_table(const ExperimentPlan& plan) {
           100.0 * plan.options.error);
   table.columns = {{"quantity"},    {"assumed"}, {"unit"},           {"plan", "%"},
                    {"evenly", "%"}, {"impacts"}, {"impacts evenly"}, {"impacts alone"}};
+  const Notation two_digits = in_percent(significant(2), "");
   for (const PlannedQuantity& quantity : plan.quantities) {
     table.rows.push_back({name_of_quantity(plan, quantity), Number{quantity.value, significant(4)},
-                          Sentence(quantity.unit), Number{quantity.error, two_digit_percent()},
-                          Number{quantity.plain_error, two_digit_percent()},
-                          impacts_cell(quantity.impacts), impacts_cell(quantity.plain_impacts),
+                          Sentence(quantity.unit), Number{quantity.error, two_digits},
+                          Number{quantity.plain_error, two_digits}, impacts_cell(quantity.impacts),
+                          impacts_cell(quantity.plain_impacts),
                           impacts_cell(quantity.alone_impacts)});
   }
   return table;
@@ -263,9 +258,7 @@ Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) 
 
 std::string json_plan(const ExperimentPlan& plan) {
   const PlanOptions& options = plan.options;
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["fit"] = plan.fit;
   out["datasets"] = Json::array();
   for (const Dataset& dataset : plan.datasets) {

@@ -4,21 +4,21 @@
 
 #include "plan/experiment_plan.hpp"
 
-/// A plan of an experiment: text, page, JSON and the points to be measured.
+/// The result of `recoil plan`.
 namespace recoil {
 
-/// What `recoil plan` prints: the answer, what to measure, the errors.
-/// @param assumed where the values of the parameters come from
+/// The output of `recoil plan`: the answer, the points to measure and the expected errors.
+/// @param assumed source of the values of the parameters
 std::string plan_text(const ExperimentPlan& plan, const std::string& assumed);
 
-/// The same as a page.
+/// The content of plan.html.
 std::string plan_html(const ExperimentPlan& plan, const std::string& assumed);
 
-/// plan.json.
+/// The content of plan.json.
 std::string json_plan(const ExperimentPlan& plan);
 
-/// The points of a dataset as a CSV file to be filled in: the columns of its schema in their units,
-/// one row for each point to be made, with series, diameter, velocity and events; the rest empty.
+/// The planned points of a dataset as a CSV file to be filled in. It has the columns and units of
+/// the dataset; series, diameter, velocity and events are set, the other cells are empty.
 std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset);
 
 }  // namespace recoil

@@ -23,10 +23,11 @@ constexpr std::size_t rows_shown = 14;
 
 // ---- pictures ----------------------------------------------------------------------------------
 
-/// One look per convention, and per size, told apart by colour and dashes.
-constexpr std::array<plot::Stroke, 3> class_strokes = {{{plot::blue, 2.0},
-                                                        {plot::green, 2.0, plot::Dash::long_dashes},
-                                                        {plot::vermillion, 2.0, plot::Dash::dots}}};
+/// One stroke for each convention. Colours and dashes differ.
+constexpr std::array<plot::Stroke, 3> strokes_of_averages = {
+    {{plot::blue, 2.0},
+     {plot::green, 2.0, plot::Dash::long_dashes},
+     {plot::vermillion, 2.0, plot::Dash::dots}}};
 constexpr std::array<const char*, 3> average_names = {"captured as e = 0", "captured left out",
                                                       "unseen left out"};
 
@@ -48,7 +49,7 @@ plot::Line line_of(const std::vector<double>& velocity, const std::vector<Banded
   return line;
 }
 
-/// The points of the dataset.
+/// Adds the points of the dataset.
 void add_points(const Analysis& analysis, std::size_t dataset, plot::Plot& shown) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
@@ -68,7 +69,7 @@ Cell banded(const BandedValue& at, const Notation& notation) {
   return quantity;
 }
 
-/// The averages under the three conventions at some velocities, beside d10 alone.
+/// The averages under the three conventions and the curve of d10 at some velocities.
 Table averages_table(const PolydispersePrediction& mixture) {
   Table table;
   table.caption = mixture.replicates > 0
@@ -81,8 +82,7 @@ Table averages_table(const PolydispersePrediction& mixture) {
   table.columns = {{say("{V}"), "m/s"},        {say("{d10} alone")}, {"captured as 0"},
                    {"captured left out"},      {"unseen left out"},  {"captured", "%"},
                    {"captured or unseen", "%"}};
-  Notation whole_percent = fixed(0);
-  whole_percent.scale = 100.0;
+  const Notation whole_percent = in_percent(fixed(0), "");
   const std::size_t stride = std::max<std::size_t>(1, mixture.velocity.size() / rows_shown);
   for (std::size_t k = 0; k < mixture.velocity.size(); k += stride) {
     std::vector<Cell> row = {Number{mixture.velocity[k], padded(3)},
@@ -95,7 +95,7 @@ Table averages_table(const PolydispersePrediction& mixture) {
   return table;
 }
 
-/// How far the points lie from each curve.
+/// The rms distance of the points from each curve.
 Table misses_table(const PolydispersePrediction& mixture) {
   Table table;
   table.caption = "Distance of the points from each curve";
@@ -110,10 +110,10 @@ Table misses_table(const PolydispersePrediction& mixture) {
   return table;
 }
 
-/// The largest difference between two averages where both are, and where [m/s].
+/// The largest difference between the first and the last convention.
 struct Difference {
-  double value = 0.0;
-  double velocity = 0.0;
+  double value = 0.0;     ///< [1]
+  double velocity = 0.0;  ///< [m/s]
 };
 Difference largest_difference(const PolydispersePrediction& mixture) {
   Difference largest;
@@ -127,7 +127,7 @@ Difference largest_difference(const PolydispersePrediction& mixture) {
   return largest;
 }
 
-/// How the conventions differ, and which of them is nearest to the points.
+/// The difference between the conventions, and the convention nearest to the points.
 std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
   std::vector<Sentence> words = {
       say("{} to {} {um} in {} sizes, {d10} = {} {um}; capture below {} m/s for the smallest and "
@@ -162,9 +162,10 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
 std::vector<Section> prediction_sections(const Analysis& analysis,
                                          const PolydispersePrediction& mixture) {
   const Dataset& dataset = analysis.datasets[mixture.dataset];
-  Section said{"mixture", "Mixture",
-               say("{} with the parameters of {}", mixture.sizes.file.string(), analysis.spec.id)};
-  said.blocks = {
+  Section mixture_section{
+      "mixture", "Mixture",
+      say("{} with the parameters of {}", mixture.sizes.file.string(), analysis.spec.id)};
+  mixture_section.blocks = {
       items({{"dataset", say("{}, {}: {}", dataset.id, to_string(dataset.provenance),
                              provenance_sentence(dataset.provenance))},
              {"origin of sizes",
@@ -172,8 +173,8 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
              {"measuring plane",
               say("{} mm above the surface: rebounds below {} m/s are not detected",
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
-  said.blocks.emplace_back(list_of_sentences(mixture_words(mixture)));
-  return {std::move(said),
+  mixture_section.blocks.emplace_back(list_of_sentences(mixture_words(mixture)));
+  return {std::move(mixture_section),
           shown_section("averages", "Weighted averages", {averages_table(mixture)}),
           shown_section("misses", "Distance of the points", {misses_table(mixture)})};
 }
@@ -207,11 +208,12 @@ Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mi
   shown.y = restitution_axis(1.05);
   shown.key = plot::KeyPlace::below;
   for (std::size_t k = 0; k < all_conventions.size(); ++k) {
-    shown.layers.push_back(band_of(mixture.velocity, mixture.average[k], class_strokes[k].colour));
+    shown.layers.push_back(
+        band_of(mixture.velocity, mixture.average[k], strokes_of_averages[k].colour));
   }
   for (std::size_t k = 0; k < all_conventions.size(); ++k) {
     shown.layers.push_back(
-        line_of(mixture.velocity, mixture.average[k], class_strokes[k], average_names[k]));
+        line_of(mixture.velocity, mixture.average[k], strokes_of_averages[k], average_names[k]));
   }
   const SizeCurve& mean = mixture.size_curves[1];
   plot::Line single{mixture.velocity, mean.restitution, {plot::grey, 1.4}};
@@ -235,8 +237,8 @@ std::string text_prediction(const Analysis& analysis, const PolydispersePredicti
   return terminal_text(prediction_sections(analysis, mixture));
 }
 
-std::vector<Block> mixture_blocks(const Analysis& analysis) {
-  std::vector<Block> blocks;
+Blocks mixture_blocks(const Analysis& analysis) {
+  Blocks blocks;
   for (const PolydispersePrediction& mixture : analysis.mixtures) {
     append(blocks, {Figures{{mixture_figure(analysis, mixture)}},
                     list_of_sentences(mixture_words(mixture)), misses_table(mixture)});

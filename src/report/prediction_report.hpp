@@ -6,31 +6,31 @@
 #include "analysis/analysis.hpp"
 #include "document/document.hpp"
 
-/// Restitution of a mixture of sizes, for `recoil predict` and the page of a fit.
+/// The mean restitution of a mixture of sizes, for `recoil predict` and the page of a fit.
 namespace recoil {
 
-/// "captured spheres count as e = 0", ...
+/// A convention for averages: "captured spheres count as e = 0".
 std::string words_of(CaptureConvention convention);
 
-/// "this fit", "JKR", ...: short enough for the key of a picture.
+/// A capture model in the key of a picture: "this fit", "JKR".
 std::string words_of(CaptureModel model);
 
-/// The averages under the three conventions beside d10 alone (Figs. 11 and 12 of Li, Dunn & Brach
-/// 1999).
+/// The averages under the three conventions and the curve of the mean diameter d10 (Figs. 11 and 12
+/// of Li, Dunn & Brach 1999).
 Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture);
 
-/// Sizes, averages by convention, captures, and the distance of the points from each average: the
-/// output of `recoil predict`, at most 100 columns.
+/// The output of `recoil predict`: sizes, averages by convention, captures, and the distance of the
+/// points from each average.
 std::string text_prediction(const Analysis& analysis, const PolydispersePrediction& mixture);
 
 /// The averages of every mixture of a fit, for its page.
 std::vector<Block> mixture_blocks(const Analysis& analysis);
 
-/// `predict.csv`: one row per velocity, units in the column names; a cell is empty where there is
-/// no value.
+/// The content of predict.csv: one row for each velocity. The names of the columns include units; a
+/// cell without a value is empty.
 std::string csv_prediction(const PolydispersePrediction& mixture);
 
-/// `predict.json`: everything, no NaN.
+/// The content of predict.json.
 std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture);
 
 }  // namespace recoil

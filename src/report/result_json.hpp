@@ -15,21 +15,24 @@
 #include "predict/simulated_impact.hpp"
 #include "report/comparison_report.hpp"
 
-/// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
+/// The JSON files of results. Missing numbers are null, if possible with a reason.
 namespace recoil {
+
+/// A JSON object with the versions of the format and the program.
+Json result_head();
 
 DatasetEntry dataset_entry(const Dataset& dataset);
 
-/// The dataset of a simulated impact or of a mixture: id, provenance, sha256.
+/// A dataset in the JSON of a simulated impact or a mixture.
 Json dataset_json(const Dataset& dataset);
 
-/// One check of one impact or fit, without the place of the impact.
+/// One check of the limits of the model, without dataset, diameter and velocity.
 ValidityEntry validity_entry(const Validity& check);
 
 /// The ends of an interval; nullopt unless both exist and are finite.
 std::optional<Ends> ends_of(const Interval& interval);
 
-/// What the points say of e without a model.
+/// Statistics of e that do not depend on a model.
 struct RestitutionEntries {
   std::vector<RestitutionMeanEntry> means;
   VelocityDependenceEntry velocity;
@@ -37,7 +40,7 @@ struct RestitutionEntries {
 };
 RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets);
 
-/// Puts them into `file`, a FitFile or DiagnosisFile.
+/// Sets these statistics in `file`, a FitFile or DiagnosisFile.
 template <class File>
 void set_restitution(File& file, const std::vector<Dataset>& datasets) {
   RestitutionEntries entries = restitution_entries(datasets);
@@ -46,38 +49,34 @@ void set_restitution(File& file, const std::vector<Dataset>& datasets) {
   file.series_differ = std::move(entries.series);
 }
 
-/// @pre analysis.fitted.usable
-FitFile fit_file(const Analysis& analysis);
-/// The text of `fit.json`.
+/// The content of fit.json. @pre analysis.fitted.usable
 std::string fit_json(const Analysis& analysis);
 
-/// The text of `posterior.csv`, the joint draws of the posterior: one column for each slot that
-/// moves and each capture velocity, SI units; before them the numbers of the chain and of the draw
-/// in it, after them the scale of the noise where it is unknown, ln likelihood and ln prior. Empty
-/// without a posterior.
+/// The content of posterior.csv, the draws of the posterior in SI units. Its columns are chain,
+/// draw, the sampled slots, the capture velocities, the noise scale if it is sampled, ln likelihood
+/// and ln prior. Empty without a posterior.
 std::string posterior_csv(const Analysis& analysis);
 
-DiagnosisFile diagnosis_file(const Diagnosis& diagnosis);
-/// The text of `diagnosis.json`.
+/// The content of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
-/// What `recoil compare --json` prints: `fits[]`, and under `quantities[]` what each fit says of
-/// one quantity, in the order of the fits (null where a fit does not have it).
-/// @throws InputError when the fits are not of the same data. @pre two or more
+/// The output of `recoil compare --json` for at least two fits. `quantities[].fits[]` is in the
+/// order of the fits, with null for a fit without this quantity.
+/// @throws InputError if the fits are not of the same data
 std::string comparison_json(const std::vector<ComparedFit>& fits);
 
-/// What `recoil coverage --json` prints.
+/// The output of `recoil coverage --json`.
 std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
                           const CoverageOptions& options, const std::vector<Dataset>& datasets);
 
-/// What `recoil simulate --json` prints.
-/// @param values where the parameters come from: "initial values", or the name of a fit.json
+/// The output of `recoil simulate --json`.
+/// @param values source of the parameters: "initial values", or the name of a fit.json
 std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>& datasets,
                             const SimulatedImpact& simulated, const std::string& fit,
                             const std::string& values);
 
-/// What `recoil pair --json` prints: the passages that were read, the measuring plane, the impacts,
-/// passages without a rebound, and the points.
+/// The output of `recoil pair --json`: passages, measuring plane, impacts, passages without a
+/// rebound, and points.
 std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
                          const Averages& averages);
 

@@ -1,4 +1,4 @@
-// From a Diagnosis to the contents of diagnosis.json.
+// Converts a Diagnosis to diagnosis.json.
 #include <algorithm>
 
 #include "core/units.hpp"
@@ -34,7 +34,7 @@ DiagnosisFile::Misfit misfit_of(const Diagnosis& d) {
   return out;
 }
 
-/// @param most how many are listed
+/// @param most largest number of listed candidates
 std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
                                                     std::size_t most) {
   std::vector<DiagnosisFile::Candidate> list;
@@ -152,7 +152,7 @@ std::vector<DiagnosisFile::Unstated> unstated_of(const Diagnosis& d) {
 
 }  // namespace
 
-DiagnosisFile diagnosis_file(const Diagnosis& d) {
+std::string diagnosis_json(const Diagnosis& d) {
   DiagnosisFile out;
   out.fit = d.spec.id;
   for (const Dataset& dataset : d.datasets) {
@@ -229,11 +229,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
                   .seed = d.options.seed};
   out.warnings = diagnosis_warnings(d);
   out.remarks = d.remarks;
-  return out;
-}
-
-std::string diagnosis_json(const Diagnosis& diagnosis) {
-  return text_of(diagnosis_file(diagnosis), 2);
+  return text_of(out, 2);
 }
 
 }  // namespace recoil

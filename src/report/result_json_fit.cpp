@@ -1,4 +1,4 @@
-// From an Analysis to the contents of fit.json and posterior.csv.
+// Converts an Analysis to fit.json and posterior.csv.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace recoil {
 namespace {
 
-/// nullopt unless `condition` holds.
+/// `value` if `condition` is true, otherwise nullopt.
 std::optional<double> only_if(bool condition, double value) {
   return condition ? std::optional(value) : std::nullopt;
 }
@@ -32,12 +32,12 @@ std::optional<Ends> mc_error(const Interval& interval) {
   return Ends{*interval.lower_error, *interval.upper_error};
 }
 
-/// Why `ends_of` gives nothing.
+/// Why `ends_of` returns nullopt.
 std::string why_none(const Interval& interval) {
   return interval.available() ? "a bound is not finite" : missing_words(interval);
 }
 
-/// Correlation of two slots from the covariance; 0 when either has no variance.
+/// Correlation of two slots from the covariance; 0 if one of them has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
   const FitResult& fitted = analysis.fitted;
   const std::size_t slots = fitted.model.slots.size();
@@ -47,15 +47,8 @@ double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
   return std::clamp(fitted.covariance[a * slots + b] / std::sqrt(product), -1.0, 1.0);
 }
 
-/// The weakest provenance among the datasets.
-Provenance weakest_provenance(const std::vector<Dataset>& datasets) {
-  // The enumerators stand in the order of how much they claim, the most first.
-  Provenance weakest = Provenance::measured;
-  for (const Dataset& dataset : datasets) weakest = std::max(weakest, dataset.provenance);
-  return weakest;
-}
-
-/// The datasets of a joint fit as one: ids joined by "+", the provenance that claims least.
+/// The datasets of a joint fit as one. Its provenance is the weakest of all datasets, the last in
+/// the order of the enum.
 DatasetEntry joint_entry(const std::vector<Dataset>& datasets) {
   if (datasets.size() == 1) return dataset_entry(datasets.front());
   DatasetEntry joint;
@@ -65,9 +58,9 @@ DatasetEntry joint_entry(const std::vector<Dataset>& datasets) {
     joint.title += (joint.title.empty() ? "" : "; ") + dataset.title;
     joint.points += dataset.points.size();
     joint.sources.insert(joint.sources.end(), dataset.sources.begin(), dataset.sources.end());
+    joint.provenance = std::max(joint.provenance, dataset.provenance);
     checksums += dataset.sha256;
   }
-  joint.provenance = weakest_provenance(datasets);
   joint.provenance_sentence = provenance_sentence(joint.provenance);
   joint.sha256 = sha256_hex(checksums);
   return joint;
@@ -81,7 +74,7 @@ std::string all_provenance_sentences(const std::vector<Dataset>& datasets) {
   return text;
 }
 
-/// The number of threads is left out on purpose: no digit of a result depends on it.
+/// The number of threads is omitted because no digit of the result depends on it.
 FitFile::Options options_of(const Analysis& a) {
   const UncertaintyOptions& options = a.uncertainty.options;
   FitFile::Options out = {
@@ -159,7 +152,7 @@ FitFile::Intervals intervals_entry(const Analysis& a, std::size_t slot, const In
   return out;
 }
 
-/// Sets `budget` and what belongs to it; leaves the keys out where there is no budget.
+/// Sets `budget` and the keys that belong to it; does nothing without a budget.
 template <class Entry>
 void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& model) {
   if (!budget.available()) return;
@@ -237,7 +230,8 @@ Named<FitFile::Constant> constants_of(const Analysis& a) {
   return all;
 }
 
-/// A matrix over the labels of the free parameters; `value(i, j)` is its entry.
+/// A matrix over the free parameters with the elements `value(i, j)`; null for parameters without a
+/// standard error.
 template <class ValueOf>
 std::optional<FitFile::Matrix> matrix_of(const FitResult& f, const ValueOf& value) {
   const std::vector<ParameterSlot>& slots = f.model.slots;
@@ -297,7 +291,7 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
   return list;
 }
 
-/// f.rmse, where any e is known: captures alone miss nothing.
+/// f.rmse; without a value if all points are captured, because e is then not known.
 OrReason<double> rmse_of(const FitResult& f) {
   const bool known = std::any_of(f.data.points.begin(), f.data.points.end(),
                                  [](const Observation& point) { return !point.censored; });
@@ -408,7 +402,7 @@ FitFile::Bootstrap bootstrap_of(const Analysis& a) {
   }
   const FailedReplicates& failed = bootstrap.failures;
   if (failed.index.empty()) return out;
-  constexpr std::size_t most_listed = 100;  // failed replicates by their index
+  constexpr std::size_t most_listed = 100;  // failed replicates
   out.failures = FitFile::Failures{};
   FitFile::Failures& failures = *out.failures;
   failures.text = failures_words(bootstrap, a.fitted.data);
@@ -530,7 +524,7 @@ FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& co
   return out;
 }
 
-/// The keys without a dataset are those of the first dataset.
+/// Sets the keys of the two-point comparison. Keys without a dataset refer to the first dataset.
 void set_two_point(FitFile& out, const Analysis& a) {
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const std::string& id = a.datasets[comparison.dataset].id;
@@ -652,7 +646,7 @@ RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
   return out;
 }
 
-FitFile fit_file(const Analysis& a) {
+std::string fit_json(const Analysis& a) {
   const FitResult& f = a.fitted;
   FitFile out;
   out.recoil_version = version();
@@ -706,7 +700,7 @@ FitFile fit_file(const Analysis& a) {
   out.warnings = plain_texts(all_warnings(a));
   out.curve = curve_of(a);
   out.residuals = residuals_of(a);
-  return out;
+  return text_of(out, 1);
 }
 
 std::string posterior_csv(const Analysis& a) {
@@ -737,7 +731,5 @@ std::string posterior_csv(const Analysis& a) {
   }
   return text;
 }
-
-std::string fit_json(const Analysis& analysis) { return text_of(fit_file(analysis), 1); }
 
 }  // namespace recoil

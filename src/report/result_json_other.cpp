@@ -10,9 +10,11 @@
 
 namespace recoil {
 
+Json result_head() { return {{"format_version", format_version}, {"recoil_version", version()}}; }
+
 namespace {
 
-/// How many of how many, and the 95 % limits of the share (Wilson).
+/// A share `part` / `whole` with its 95 % limits (Wilson 1927).
 Json share_json(int part, int whole) {
   Json limits = nullptr;
   if (whole > 0) {
@@ -43,9 +45,7 @@ Json row_json(const CoverageRow& row) {
 
 std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
                           const CoverageOptions& options, const std::vector<Dataset>& datasets) {
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["fit"] = {{"id", spec.id}, {"sha256", spec.sha256}};
   out["datasets"] = Json::array();
   for (const Dataset& dataset : datasets) {
@@ -84,7 +84,7 @@ Json energy_json(const SimulatedImpact& s) {
 Json contact_json(const SimulatedImpact& s) {
   const bool captured = s.impact.outcome == ImpactOutcome::captured;
   const double e = std::sqrt(std::max(s.impact.restitution_squared, 0.0));
-  const auto of_whole = [&](double value) { return s.yields ? Json() : number_or_null(value); };
+  const auto if_elastic = [&](double value) { return s.yields ? Json() : number_or_null(value); };
   return {{"incident_velocity", s.conditions.velocity},
           {"diameter_um", s.diameter / units::um},
           {"restitution", captured ? Json(0.0) : number_or_null(e)},
@@ -92,9 +92,9 @@ Json contact_json(const SimulatedImpact& s) {
           {"stiffness_K_Pa", number_or_null(s.conditions.stiffness)},
           {"f0_N_per_m", number_or_null(s.conditions.adhesion_force)},
           {"density_kg_per_m3", number_or_null(s.density)},
-          {"contact_time_s", of_whole(s.impact.contact_time * s.scales.time)},
-          {"penetration_m", of_whole(s.impact.penetration_max * s.scales.length)},
-          {"largest_push_N", of_whole(s.impact.force_compression * s.scales.force)},
+          {"contact_time_s", if_elastic(s.impact.contact_time * s.scales.time)},
+          {"penetration_m", if_elastic(s.impact.penetration_max * s.scales.length)},
+          {"largest_push_N", if_elastic(s.impact.force_compression * s.scales.force)},
           {"largest_pull_N", number_or_null(s.impact.force_tension * s.scales.force)},
           {"energy_J", energy_json(s)}};
 }
@@ -112,9 +112,7 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
                             const SimulatedImpact& s, const std::string& fit,
                             const std::string& values) {
   const Dataset& dataset = datasets[s.asked.dataset];
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil_version"] = version();
+  Json out = result_head();
   out["fit"] = fit;
   out["dataset"] = dataset_json(dataset);
   out["values_from"] = values;

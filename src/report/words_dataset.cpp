@@ -19,7 +19,7 @@ namespace {
 
 // ---- limits of the model ------------------------------------------------------------------------
 
-constexpr double dmt_limit = 0.1;  // of the Tabor parameter
+constexpr double dmt_limit = 0.1;  // DMT holds for Tabor parameters below this
 
 std::string impact_words(const Validity& v) {
   return fmt::format("{:.3g} m/s, {}", v.velocity, diameter_words(v.diameter));
@@ -99,23 +99,23 @@ std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets) {
 }
 
 std::string warning_sentence(const DatasetWarning& warning) {
-  const auto say = [&](const char* what, const char* advice) {
-    return fmt::format("{} point{} with {} ({} line {}): {}", warning.count,
-                       warning.count == 1 ? "" : "s", what, warning.count == 1 ? "in" : "first in",
-                       warning.first_line, advice);
+  const auto points_with = [&](const char* what, const char* advice) {
+    const bool one = warning.count == 1;
+    return fmt::format("{} point{} with {} ({} line {}): {}", warning.count, one ? "" : "s", what,
+                       one ? "in" : "first in", warning.first_line, advice);
   };
   switch (warning.remark) {
     case PointRemark::restitution_above_one:
-      return say("a restitution above 1",
-                 "kept, since noise can cause it; energy cannot be gained");
+      return points_with("a restitution above 1",
+                         "kept, since noise can cause it; energy cannot be gained");
     case PointRemark::unmarked_zero:
-      return say("a restitution of 0 that is not marked as captured",
-                 "taken as a rebound; mark captures in the column 'captured'");
+      return points_with("a restitution of 0 that is not marked as captured",
+                         "taken as a rebound; mark captures in the column 'captured'");
     case PointRemark::unusual_diameter:
-      return say("a diameter above 1 mm", "kept; check the unit if these are microspheres");
+      return points_with("a diameter above 1 mm", "kept; check the unit if these are microspheres");
     case PointRemark::repeated:
-      return say("the same series, diameter, velocity and restitution as an earlier one",
-                 "kept; a point copied by accident counts twice");
+      return points_with("the same series, diameter, velocity and restitution as an earlier one",
+                         "kept; a point copied by accident counts twice");
   }
   return "";
 }
@@ -137,18 +137,18 @@ std::string mixed_sizes_words(const MeasuredSizes& sizes) {
 std::string stated_errors_words(const ImpactSystem& system) {
   std::string words;
   for (const Body body : values_of<Body>()) {
-    std::vector<std::string> of_body;
+    std::vector<std::string> stated;
     for (const ConstantError& error : system.errors) {
       if (error.body != body) continue;
       const std::string_view name = words_of_constant(error.constant);
       const double value = system.value_of(error.body, error.constant).value_or(1.0);
-      of_body.push_back(is_positive(error.constant)
-                            ? fmt::format("{} {:.3g} %", name, 100.0 * error.sd / value)
-                            : fmt::format("{} {:.3g}", name, error.sd));
+      stated.push_back(is_positive(error.constant)
+                           ? fmt::format("{} {:.3g} %", name, 100.0 * error.sd / value)
+                           : fmt::format("{} {:.3g}", name, error.sd));
     }
-    if (of_body.empty()) continue;
+    if (stated.empty()) continue;
     words +=
-        fmt::format("{}{}: {}", words.empty() ? "" : "; ", name_of(body), fmt::join(of_body, ", "));
+        fmt::format("{}{}: {}", words.empty() ? "" : "; ", name_of(body), fmt::join(stated, ", "));
   }
   return words;
 }
@@ -166,38 +166,34 @@ std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {
 }
 
 std::string validity_sentence(const Validity& v) {
-  switch (v.quantity) {
-    case ValidityQuantity::contact_radius:
-      return fmt::format(
-          "the contact grows to {:.2g} of the sphere's radius ({}); Hertz' theory holds up to "
-          "about {:g}",
-          v.value, impact_words(v), v.limit);
-    case ValidityQuantity::pressure_modulus:
-      return fmt::format(
-          "the peak pressure is {:.2g} E* ({}); no solid withstands more than about {:g} E*",
-          v.value, impact_words(v), v.limit);
-    case ValidityQuantity::pressure_yield:
-      return fmt::format(
-          "the peak pressure is {:.2g} times the yield pressure of {}, {} ({}); above {:g} the "
-          "contact yields, which the base model ignores",
-          v.value, pressure_words(v.yield_pressure),
-          v.yield_stated ? "by the stated strength" : "taken as 0.03 E of the softer body",
-          impact_words(v), v.limit);
-    case ValidityQuantity::tabor:
-      return fmt::format("the Tabor parameter is {:.2g} ({}): {}", v.value,
-                         diameter_words(v.diameter), tabor_words(v));
-    case ValidityQuantity::wave_transits:
-      return fmt::format(
-          "a wave crosses the sphere {:.2g} times in one contact ({}); below {:g} the contact is "
-          "not quasi-static",
-          v.value, impact_words(v), v.limit);
-  }
-  return "";
+  using enum ValidityQuantity;
+  static constexpr Phrase<ValidityQuantity> patterns[] = {
+      {contact_radius,
+       "the contact grows to {value:.2g} of the sphere's radius ({impact}); Hertz' theory holds up "
+       "to about {limit:g}"},
+      {pressure_modulus,
+       "the peak pressure is {value:.2g} E* ({impact}); no solid withstands more than about "
+       "{limit:g} E*"},
+      {pressure_yield,
+       "the peak pressure is {value:.2g} times the yield pressure of {yield}, {source} ({impact}); "
+       "above {limit:g} the contact yields, which the base model ignores"},
+      {tabor, "the Tabor parameter is {value:.2g} ({diameter}): {tabor}"},
+      {wave_transits,
+       "a wave crosses the sphere {value:.2g} times in one contact ({impact}); below {limit:g} the "
+       "contact is not quasi-static"}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, v.quantity).words),
+                     fmt::arg("value", v.value), fmt::arg("limit", v.limit),
+                     fmt::arg("impact", impact_words(v)),
+                     fmt::arg("diameter", diameter_words(v.diameter)),
+                     fmt::arg("yield", pressure_words(v.yield_pressure)),
+                     fmt::arg("source", v.yield_stated ? "by the stated strength"
+                                                       : "taken as 0.03 E of the softer body"),
+                     fmt::arg("tabor", tabor_words(v)));
 }
 
 std::vector<std::string> exceeded_limits(const std::vector<Validity>& validity,
                                          const std::vector<Dataset>& datasets) {
-  std::vector<Validity> worst;  // of each quantity
+  std::vector<Validity> worst;  // one for each quantity
   for (const Validity& one : validity) {
     if (one.exceeded()) keep_worst(one, worst);
   }
@@ -215,7 +211,7 @@ Table validity_table(const std::vector<Validity>& validity) {
   Table table;
   if (validity.empty()) return table;
   table.caption = "where the model holds:";
-  table.columns = {{}, {"value"}, {"good", "", true}};
+  table.columns = {{}, {"value"}, {"valid", "", true}};
   for (const Validity& one : validity) {
     table.rows.push_back({Sentence(short_name(one.quantity)), Number{one.value, significant(3)},
                           Sentence(fmt::format("{} {:g}{}", one.limit_is_least() ? "from" : "up to",
@@ -225,94 +221,91 @@ Table validity_table(const std::vector<Validity>& validity) {
 }
 
 std::string note_sentence(const ImportNote& note) {
+  using enum ImportRemark;
+  const std::string names = listed(note.names);
   switch (note.remark) {
-    case ImportRemark::encoding_assumed:
+    case encoding_assumed:
       return "the file is not UTF-8 and was read as Windows-1252: check names with accents";
-    case ImportRemark::workbook_converted:
-      return fmt::format("the first sheet of the workbook was read by {}", listed(note.names));
-    case ImportRemark::lines_skipped:
-      return fmt::format("skipped as a comment or title: {}", listed(note.names));
-    case ImportRemark::rows_left_out:
-      return fmt::format("left out, because a cell that is needed is empty: {}",
-                         listed(note.names));
-    case ImportRemark::signed_velocities:
+    case workbook_converted:
+      return fmt::format("the first sheet of the workbook was read by {}", names);
+    case lines_skipped:
+      return fmt::format("skipped as a comment or title: {}", names);
+    case rows_left_out:
+      return fmt::format("left out, because a cell that is needed is empty: {}", names);
+    case signed_velocities:
       return "the signs of the velocities were taken as directions";
-    case ImportRemark::first_bounces_missed:
+    case first_bounces_missed:
       return fmt::format(
           "bounces between the release and the first one listed were missed, by launch: {}. The "
           "release height is not used there",
-          listed(note.names));
-    case ImportRemark::bounces_suspected:
+          names);
+    case bounces_suspected:
       return fmt::format(
           "a bounce may be missing before {}: e is there the square of the others. If so, put a "
-          "row "
-          "with an empty cell in its place: the launch is then split there",
-          listed(note.names));
-    case ImportRemark::first_bounces_not_used:
+          "row with an empty cell in its place: the launch is then split there",
+          names);
+    case first_bounces_not_used:
       return "the bounces after the release are not used as points, as no error of the release "
              "height is stated: state it with --drop-error 2mm";
-    case ImportRemark::diameter_not_used:
+    case diameter_not_used:
       return "--diameter was not used: the file has a diameter for every point";
-    case ImportRemark::diameters_from_names:
-      return fmt::format("diameters were taken from the names of the series: {}",
-                         listed(note.names));
-    case ImportRemark::columns_not_used:
-      return fmt::format("columns not used: {}", listed(note.names));
-    case ImportRemark::no_reading_error:
+    case diameters_from_names:
+      return fmt::format("diameters were taken from the names of the series: {}", names);
+    case columns_not_used:
+      return fmt::format("columns not used: {}", names);
+    case no_reading_error:
       return "no reading error is stated: --axis x=log,1,100 --axis y=linear,0,1 --reading-error "
              "0.5% converts one into velocity_sd and restitution_sd";
-    case ImportRemark::reading_error_alone:
+    case reading_error_alone:
       return "restitution_sd contains the reading error only: add the scatter of the experiment "
-             "with "
-             "--scatter 10%, or let the fit estimate it ([noise] variance)";
-    case ImportRemark::few_drops:
+             "with --scatter 10%, or let the fit estimate it ([noise] variance)";
+    case few_drops:
       return "some heights have fewer than five drops, too few for a standard error; "
-             "--rebound-error "
-             "sets the least";
-    case ImportRemark::no_drop_error:
+             "--rebound-error sets the least";
+    case no_drop_error:
       return "no error of the drop height is stated: state it with --drop-error 1mm";
-    case ImportRemark::without_air:
+    case without_air:
       return "V = sqrt(2 g h) ignores the air; both heights must refer to the same point of the "
              "ball";
-    case ImportRemark::same_point:
+    case same_point:
       return "both heights must refer to the same point of the ball";
-    case ImportRemark::air_drag:
+    case air_drag:
       return air_sentence(note.air);
-    case ImportRemark::turbulent_air:
+    case turbulent_air:
       return fmt::format(
           "the Reynolds number of the fastest impact, {:.2g}, is beyond the drag law (up to 2e5)",
           note.air.reynolds);
-    case ImportRemark::bounces_missing:
+    case bounces_missing:
       return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
                          note.count, note.count == 1 ? "pair" : "pairs");
-    case ImportRemark::release_heights:
+    case release_heights:
       return fmt::format(
           "check of the release heights (extra fall that makes the first bounce equal the second): "
           "{}. An equal difference at all heights points to an offset of the scale",
           joined(note.releases, "; ", release_words));
-    case ImportRemark::impacts_skipped:
+    case impacts_skipped:
       return fmt::format("{} impact{} left out: fewer than four samples of free flight on one side",
                          note.count, note.count == 1 ? "" : "s");
-    case ImportRemark::track_fall:
+    case track_fall:
       return fmt::format(
           "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is "
           "wrong, or air drag is large; e does not depend on the scale, V does",
           note.fall, note.gravity);
-    case ImportRemark::drag_stays:
+    case drag_stays:
       return "the effect of air drag on the tracks was not removed";
-    case ImportRemark::shared_bounces:
+    case shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";
-    case ImportRemark::no_source:
+    case no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
-    case ImportRemark::licence_removed:
+    case licence_removed:
       return "the licence of the reconstruction was removed, as it does not cover these points";
-    case ImportRemark::recipe_set_aside:
+    case recipe_set_aside:
       return fmt::format("the folder is no longer a reconstruction; its {} is kept as {}",
                          recipe_name, set_aside_recipe_name);
-    case ImportRemark::overrides_left_out:
+    case overrides_left_out:
       return left_out_sentence(note.left_out);
-    case ImportRemark::adhesion_left_out:
+    case adhesion_left_out:
       return "adhesion is neglected: it takes less than 1e-6 of the energy of every impact "
              "(--adhesion-energy sets it)";
   }
@@ -321,11 +314,11 @@ std::string note_sentence(const ImportNote& note) {
 
 namespace {
 
-constexpr std::size_t most_series = 4;  // in a sentence
-constexpr double shown_level = 0.05;    // of a p-value that is called a difference
+constexpr std::size_t most_series = 4;  // listed in a sentence
+constexpr double shown_level = 0.05;    // a smaller p-value is reported as a difference
 
-/// The series of a mean, with its dataset where there are several, and its size where its name does
-/// not tell it.
+/// The name of a series, with its size if its name is not unique, and with its dataset if there are
+/// several.
 std::string series_words(const RestitutionMean& mean, const RestitutionSummary& summary,
                          const std::vector<Dataset>& datasets) {
   const Dataset& dataset = datasets[mean.dataset];
@@ -354,7 +347,7 @@ Sentence ends_words(const TestedEffect& effect, double sign) {
   return say("[{:.2g}, {:.2g}]", std::min(a, b), std::max(a, b));
 }
 
-/// How e varies with V: with its range where V spans a decade, as the mean says little then.
+/// The dependence of e on V. If V spans a decade, the sentence includes the range of e.
 Sentence dependence_words(const RestitutionSummary& summary) {
   const TestedEffect& effect = summary.velocity;
   if (!effect.p_value) {
@@ -450,7 +443,7 @@ Table restitution_table(const RestitutionSummary& summary, const std::vector<Dat
 
 namespace {
 
-/// Smallest and largest of the values seen so far.
+/// The range of the added values.
 struct Span {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -std::numeric_limits<double>::infinity();
@@ -460,7 +453,7 @@ struct Span {
     highest = std::max(highest, value);
   }
 
-  /// "2.58", "1.5 to 98", or nothing where nothing was seen.
+  /// "2.58", "1.5 to 98"; empty if no value was added.
   Cell cell() const {
     if (lowest > highest) return {};
     const std::string from = fmt::format("{:.4g}", lowest);
@@ -474,8 +467,8 @@ struct SeriesSummary {
   std::size_t points = 0;
   long long events = 0;
   long long captured = 0;
-  Span diameter;  ///< in the unit of sizes
-  Span velocity;
+  Span diameter;     ///< in the unit of `size_unit`
+  Span velocity;     ///< [m/s]
   Span restitution;  ///< of points with rebounds
 };
 
@@ -504,7 +497,7 @@ Sentence material_words(const Material& material) {
                       : Sentence(", surface energy by Gilman's estimate"));
 }
 
-/// What the dataset states in place of what would follow from the materials.
+/// The stated values that replace those derived from the materials.
 Sentence override_words(const ImpactSystem& system) {
   std::vector<Sentence> stated;
   if (system.stiffness_K) stated.push_back(say("{K} {:g} GPa", *system.stiffness_K / units::GPa));

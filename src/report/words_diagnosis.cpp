@@ -19,15 +19,16 @@ namespace recoil {
 
 namespace {
 
-constexpr std::size_t most_values = 8;  // of parameters
+constexpr std::size_t most_values = 8;  // parameters listed in a sentence
 
-/// "3.1", "3.1 +/- 0.2"
+/// A value with its standard error: "3.1", "3.1 +/- 0.2".
 std::string value_words(const FoundParameter& p) {
   return p.sd > 0.0 ? fmt::format("{:.3g} +/- {:.2g}", p.value, p.sd)
                     : fmt::format("{:.3g}", p.value);
 }
 
-/// Why a candidate is set aside, for a table and in a sentence; {} is the p-value of what remains.
+/// Why a candidate is set aside, for a table and for a sentence. {} is the p-value of the remaining
+/// structure.
 struct SetAsideReason {
   SetAside value;
   const char* brief;
@@ -77,66 +78,6 @@ std::string doing_words(const NextExperiment& experiment) {
                                                       : "more impacts";
 }
 
-std::string because_words(const CandidateResult& c) {
-  const SetAside why = c.set_aside.value_or(SetAside::not_possible);
-  if (why == SetAside::chance) {
-    return fmt::format(
-        "by chance alone the best of all candidates gains as much in {:.0f} % of data sets",
-        100.0 * c.p_value.value_or(1.0));
-  }
-  if (why != SetAside::not_possible) {
-    return fmt::format(fmt::runtime(reason_of(why).full), c.remaining_p);
-  }
-  for (const FoundParameter& parameter : c.parameters) {
-    if (parameter.plausible()) continue;
-    const std::string words = implausible_words(parameter);
-    if (!(c.cost_of_possible > 0.0)) return words;
-    return fmt::format("{}; with a possible value it fits worse by {:.0f} in AICc", words,
-                       c.cost_of_possible);
-  }
-  return "";
-}
-
-std::string parameters_words(const CandidateResult& candidate) {
-  std::vector<FoundParameter> all = candidate.parameters;
-  if (std::all_of(all.begin(), all.end(), [](const FoundParameter& p) { return p.sd == 0.0; })) {
-    std::erase_if(all, [](const FoundParameter& p) { return !p.stated_by; });
-    if (!all.empty()) {
-      return joined(all, "; ", [](const FoundParameter& p) {
-        return fmt::format("{} = {:.3g}{}, as the {} says", p.label, p.value, unit_suffix(p.unit),
-                           condition_words(*p.stated_by));
-      });
-    }
-    all = candidate.parameters;
-  }
-  std::erase_if(all, [&](const FoundParameter& p) {
-    const auto& slots = candidate.candidate.model.slots;
-    return std::any_of(slots.begin(), slots.end(), [&](const ParameterSlot& slot) {
-      return slot.label() == p.label && !slot.free;
-    });
-  });
-  if (all.size() > most_values) {
-    const auto [low, high] = std::minmax_element(
-        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
-    return fmt::format("{} values from {} = {:.3g} to {} = {:.3g}", all.size(), low->label,
-                       low->value, high->label, high->value);
-  }
-  return joined(all, ", ", [](const FoundParameter& p) {
-    return fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit));
-  });
-}
-
-std::string cause_words(const std::vector<std::string>& ids, const char* between) {
-  constexpr std::size_t most = 5;
-  std::vector<std::string> words;
-  for (const std::string& id : ids) {
-    if (words.size() < most) words.push_back(words_of(id));
-  }
-  const std::size_t more = ids.size() - words.size();
-  return fmt::format("{}{}", fmt::join(words, between),
-                     more > 0 ? fmt::format(" and {} more", more) : std::string());
-}
-
 std::string words_of(StructureQuestion question) {
   using enum StructureQuestion;
   static constexpr Phrase<StructureQuestion> phrases[] = {
@@ -184,6 +125,31 @@ std::string implausible_words(const FoundParameter& parameter) {
   return "";
 }
 
+namespace {
+
+/// Why a candidate that is set aside is not accepted.
+std::string because_words(const CandidateResult& c) {
+  const SetAside why = c.set_aside.value_or(SetAside::not_possible);
+  if (why == SetAside::chance) {
+    return fmt::format(
+        "by chance alone the best of all candidates gains as much in {:.0f} % of data sets",
+        100.0 * c.p_value.value_or(1.0));
+  }
+  if (why != SetAside::not_possible) {
+    return fmt::format(fmt::runtime(reason_of(why).full), c.remaining_p);
+  }
+  for (const FoundParameter& parameter : c.parameters) {
+    if (parameter.plausible()) continue;
+    const std::string words = implausible_words(parameter);
+    if (!(c.cost_of_possible > 0.0)) return words;
+    return fmt::format("{}; with a possible value it fits worse by {:.0f} in AICc", words,
+                       c.cost_of_possible);
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string set_aside_words(const CandidateResult& c) {
   if (c.set_aside == SetAside::not_possible) return "not possible: " + because_words(c);
   return c.explains() ? "" : because_words(c);
@@ -207,18 +173,19 @@ std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {
   return warnings;
 }
 
-std::string where_words(const Diagnosis& d) {
-  const MisfitCell* const worst = worst_cell(d);
-  if (worst == nullptr) return "";
-  return fmt::format(
-      "The misfit is largest for {} at {:.3g} to {:.3g} m/s, where the e of the model is too {} by "
-      "{:.2g}, {:.2g} standard errors",
-      diameter_words(worst->diameter), worst->slowest, worst->fastest,
-      worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
-      std::abs(worst->standardised));
-}
-
 namespace {
+
+/// The names of the first five causes, and the number of the others.
+std::string cause_words(const std::vector<std::string>& ids, const char* between = ", ") {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> words;
+  for (const std::string& id : ids) {
+    if (words.size() < most) words.push_back(words_of(id));
+  }
+  const std::size_t more = ids.size() - words.size();
+  return fmt::format("{}{}", fmt::join(words, between),
+                     more > 0 ? fmt::format(" and {} more", more) : std::string());
+}
 
 std::string headline_of(const NotSeparable& d) {
   if (!d.shared_cause.empty()) {
@@ -273,13 +240,56 @@ std::string headline(const Diagnosis& d) {
 
 namespace {
 
-constexpr std::size_t most_titles = 3;    // of tests that found something
+constexpr std::size_t most_titles = 3;    // significant tests in a sentence
 constexpr std::size_t most_expected = 3;  // effects of stated conditions
 constexpr std::size_t most_impossible = 2;
-constexpr double worth_a_word = 0.01;        // of an error of e
-const double steps_of_sd = std::sqrt(12.0);  // of a reading that is rounded
+constexpr double smallest_effect = 0.01;     // reported, in standard deviations of e
+const double steps_of_sd = std::sqrt(12.0);  // rounding step over its standard deviation
 
-/// "gas film (gas between the measuring plane and the contact)"
+/// The parameters of a candidate: "C_x = 3 m". Only fitted values or values stated by a condition
+/// are listed; many values are summarised by their range.
+std::string parameters_words(const CandidateResult& candidate) {
+  std::vector<FoundParameter> all = candidate.parameters;
+  if (std::all_of(all.begin(), all.end(), [](const FoundParameter& p) { return p.sd == 0.0; })) {
+    std::erase_if(all, [](const FoundParameter& p) { return !p.stated_by; });
+    if (!all.empty()) {
+      return joined(all, "; ", [](const FoundParameter& p) {
+        return fmt::format("{} = {:.3g}{}, as the {} says", p.label, p.value, unit_suffix(p.unit),
+                           condition_words(*p.stated_by));
+      });
+    }
+    all = candidate.parameters;
+  }
+  std::erase_if(all, [&](const FoundParameter& p) {
+    const auto& slots = candidate.candidate.model.slots;
+    return std::any_of(slots.begin(), slots.end(), [&](const ParameterSlot& slot) {
+      return slot.label() == p.label && !slot.free;
+    });
+  });
+  if (all.size() > most_values) {
+    const auto [low, high] = std::minmax_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+    return fmt::format("{} values from {} = {:.3g} to {} = {:.3g}", all.size(), low->label,
+                       low->value, high->label, high->value);
+  }
+  return joined(all, ", ", [](const FoundParameter& p) {
+    return fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit));
+  });
+}
+
+/// Where the misfit of the base model is largest; empty without a misfit.
+std::string where_words(const Diagnosis& d) {
+  const MisfitCell* const worst = worst_cell(d);
+  if (worst == nullptr) return "";
+  return fmt::format(
+      "The misfit is largest for {} at {:.3g} to {:.3g} m/s, where the e of the model is too {} by "
+      "{:.2g}, {:.2g} standard errors",
+      diameter_words(worst->diameter), worst->slowest, worst->fastest,
+      worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
+      std::abs(worst->standardised));
+}
+
+/// A mechanism with its title: "gas film (gas between the measuring plane and the contact)".
 std::string title_of(const std::string& id) {
   const Mechanism* mechanism = find_mechanism(id);
   return mechanism == nullptr ? words_of(id)
@@ -310,7 +320,7 @@ std::string gain_words(const Diagnosis& d) {
   return text + ".";
 }
 
-/// The candidate of one mechanism; null where it was not tried.
+/// The candidate that adds only this mechanism; null if it was not tried.
 const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
   const auto found =
       std::find_if(d.candidates.begin(), d.candidates.end(), [&](const CandidateResult& c) {
@@ -319,7 +329,7 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
   return found == d.candidates.end() ? nullptr : &*found;
 }
 
-/// The experiment that takes the least effort.
+/// The experiment with the least effort that would separate the causes.
 std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
   if (several.experiments.empty()) {
     return has_one_size(d.base.data)
@@ -332,13 +342,13 @@ std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
   const std::string impacts =
       fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
                   diameter_words(next.diameter), next.velocity);
-  const std::string apart = fmt::format(
+  const std::string difference = fmt::format(
       "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
       next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
   if (next.kind == ExperimentKind::condition) {
-    return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, apart);
+    return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, difference);
   }
-  return fmt::format("To decide, measure {}: {}.", impacts, apart);
+  return fmt::format("To decide, measure {}: {}.", impacts, difference);
 }
 
 std::string dominant_point_words(const Diagnosis& d) {
@@ -396,8 +406,8 @@ std::string rival_errors_words(const Diagnosis& d) {
       joined(rivals, "; ", errors_words));
 }
 
-/// What the residuals show.
-std::string found_words(const Diagnosis& d) {
+/// The structure in the residuals.
+std::string structure_words(const Diagnosis& d) {
   std::vector<std::string> found;
   for (const StructureTest& test : d.structure.tests) {
     if (test.p_value > 0.01) continue;
@@ -412,7 +422,7 @@ std::string found_words(const Diagnosis& d) {
   return fmt::format("{}", fmt::join(found, ", "));
 }
 
-/// A damping of the base model that its upper bound holds back.
+/// A warning about a damping of the base model at its upper bound.
 std::string bound_words(const Diagnosis& d) {
   const std::vector<std::size_t> held = held_back_dampings(d.base);
   if (held.empty()) return "";
@@ -422,7 +432,7 @@ std::string bound_words(const Diagnosis& d) {
       slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
 }
 
-/// What these points cannot show.
+/// Why the points cannot test the model; empty if they can.
 std::string untested_words(const Diagnosis& d) {
   if (!d.base.data.noise.known) {
     return "The noise is neither stated nor known from the points, so nothing can be tested.";
@@ -441,8 +451,8 @@ std::string untested_words(const Diagnosis& d) {
                    places.size(), evidence_for(d).free);
 }
 
-/// What is wrong.
-std::string wrong_words(const Diagnosis& d) {
+/// The misfit, or that there is none.
+std::string misfit_words(const Diagnosis& d) {
   if (d.structure.tests.empty()) return "";
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.answer_if<Adequate>()) {
@@ -456,12 +466,12 @@ std::string wrong_words(const Diagnosis& d) {
   }
   const std::string where = where_words(d);
   if (!where.empty()) return fmt::format("{} ({}).", where, p);
-  const std::string found = found_words(d);
+  const std::string found = structure_words(d);
   return fmt::format("The fitted model leaves structure in its residuals ({}){}{}.", p,
                      found.empty() ? "" : ": ", found);
 }
 
-/// What the headline does not say of several possible causes.
+/// What the data can decide about several possible causes.
 std::string several_words(const Diagnosis& d, const NotSeparable& several) {
   if (has_one_size(d.base.data)) {
     return "With one diameter, the effect of size is unknown, and causes differ mainly in their "
@@ -484,7 +494,7 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
   return "A cause that is not listed is possible, too.";
 }
 
-/// What has the shape of the misfit, and why it is not believed all the same.
+/// The cause that the misfit resembles, and why it is not possible.
 std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
   const CandidateResult* const first = single_named(d, shown.causes.front());
   const std::string shape = fmt::format("The misfit resembles {}", titles_of(shown.causes, " or "));
@@ -494,7 +504,7 @@ std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
                            shape, because_words(*first));
 }
 
-/// Why nothing is named.
+/// Why no cause is named.
 std::string unexplained_words(const Diagnosis& d) {
   if (const auto* shown = d.answer_if<Resembles>()) return resembling_words(d, *shown);
   if (series_differ(d)) {
@@ -524,10 +534,9 @@ std::string unexplained_words(const Diagnosis& d) {
   return "No cause in the catalogue explains it, alone or in pairs.";
 }
 
-/// What to do where nothing is named.
+/// What to do if no cause is named.
 std::string advice_words(const Diagnosis& d) {
-  if (series_differ(d)) return "";   // it has been said
-  if (dominant_point(d)) return "";  // it has been said
+  if (series_differ(d) || dominant_point(d)) return "";  // unexplained_words gives advice
   if (!rival_errors(d).empty() || !d.structure.smooth) {
     return "State the errors of the measurement (restitution_sd, velocity_sd, setting) and repeat "
            "the diagnosis.";
@@ -541,9 +550,9 @@ std::string advice_words(const Diagnosis& d) {
          "of the points only.";
 }
 
-/// An adequate model that nothing could have shown wrong.
+/// A warning that few points could detect a misfit of an adequate model.
 std::string evidence_words(const Diagnosis& d) {
-  if (!tests_the_curve(d)) return "";  // it has been said
+  if (!tests_the_curve(d)) return "";  // untested_words says this
   const Evidence evidence = evidence_for(d);
   if (!evidence.hardly_any()) return "";
   return fmt::format(
@@ -552,7 +561,7 @@ std::string evidence_words(const Diagnosis& d) {
       evidence.rebounds, evidence.free);
 }
 
-/// That the errors of the materials make the model adequate, and which of them; empty when not.
+/// How the errors of the material constants make the model adequate; empty if they are not needed.
 std::string materials_words(const Diagnosis& d, const Adequate& answer) {
   if (!answer.materials) return "";
   std::string moved;
@@ -569,7 +578,7 @@ std::string materials_words(const Diagnosis& d, const Adequate& answer) {
       moved, moved.empty() ? "" : " standard deviations", answer.materials->p_value_exact);
 }
 
-/// What exact laws would leave; empty where that is nothing.
+/// The structure that would remain if the laws were exact; empty if none would.
 std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
   if (!answer.if_exact || answer.if_exact->p_value > d.options.level) return "";
   const std::vector<std::string>& ids = answer.if_exact->listed;
@@ -579,42 +588,43 @@ std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
                                  : ", most similar to " + cause_words(ids, " or "));
 }
 
-/// What these points could have shown: one sentence for each cause, one for none.
+/// The error rates of the diagnosis for this design: one sentence for each cause and one for false
+/// alarms.
 std::vector<std::string> rates_words(const Diagnosis& d) {
   std::vector<std::string> words;
   if (!d.own_design) return words;
-  const auto percent = [](int part, int whole) {
+  const auto share = [](int part, int whole) {
     return fmt::format("{:.0f} %", 100.0 * part / whole);
   };
   for (const Detection& one : d.own_design->detection) {
     words.push_back(fmt::format(
         "With these {} points recoil would have named {} in {} of cases where it {}, listed it "
         "among others in {}, and named something else in {} ({} simulated data sets).",
-        d.base.data.points.size(), words_of(one.id), percent(one.named, one.datasets),
+        d.base.data.points.size(), words_of(one.id), share(one.named, one.datasets),
         one.strength == 1.0 ? std::string("acts as found")
                             : fmt::format("has {:.2g} of the effect found", one.strength),
-        percent(one.listed, one.datasets), percent(one.wrong, one.datasets), one.datasets));
+        share(one.listed, one.datasets), share(one.wrong, one.datasets), one.datasets));
   }
   words.push_back(fmt::format(
       "Where nothing acts beside the model it would have seen something in {} of cases ({} "
       "simulated data sets).",
-      percent(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
+      share(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
   return words;
 }
 
-/// The middle one of the standard deviations of e that the points have.
+/// The median standard deviation of e.
 double typical_error(const Diagnosis& d) {
   std::vector<double> errors;
   for (const Observation& point : d.base.data.points) errors.push_back(point.weights.sd);
   return median(std::move(errors));
 }
 
-/// What the conditions of the data say must be there, the largest effect first.
+/// The effects of the stated conditions, the largest first.
 std::vector<std::string> expected_words(const Diagnosis& d) {
   std::vector<std::string> words;
   for (const ExpectedEffect& effect : d.expected) {
     if (words.size() == most_expected) break;
-    if (std::abs(effect.change) < worth_a_word * typical_error(d)) break;
+    if (std::abs(effect.change) < smallest_effect * typical_error(d)) break;
     words.push_back(fmt::format(
         "At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
         condition_words(effect.condition), effect.stated,
@@ -624,7 +634,7 @@ std::vector<std::string> expected_words(const Diagnosis& d) {
   return words;
 }
 
-/// Those that would have gained as much as the answer, but are not possible.
+/// Candidates that gain as much as the answer but are not possible.
 std::vector<std::string> impossible_words(const Diagnosis& d) {
   std::vector<std::string> words;
   const ExtendedModel* const extended = d.extended();
@@ -632,8 +642,8 @@ std::vector<std::string> impossible_words(const Diagnosis& d) {
   const std::vector<std::string> rivals = d.rivals();
   const std::vector<std::string> resembles = d.resembles();
   for (const CandidateResult& c : d.candidates) {
-    const bool said = !resembles.empty() && resembles.front() == c.candidate.name();
-    if (said || c.plausible || c.delta_aicc >= answer) continue;
+    const bool in_answer = !resembles.empty() && resembles.front() == c.candidate.name();
+    if (in_answer || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
     const bool listed = std::find(rivals.begin(), rivals.end(), c.candidate.name()) != rivals.end();
     words.push_back(
@@ -653,7 +663,7 @@ std::string verdict_words(const AnswerForAll& answer) {
   return ids.empty() ? verdict : fmt::format("{} ({})", verdict, fmt::join(ids, ", "));
 }
 
-/// What knowing how velocities were measured would exclude.
+/// The causes that a stated method of velocity measurement would exclude.
 std::string method_words(const Diagnosis& d) {
   const bool unknown =
       std::any_of(d.datasets.begin(), d.datasets.end(),
@@ -673,7 +683,7 @@ std::string method_words(const Diagnosis& d) {
       fmt::join(words, ", "));
 }
 
-/// Which points were set aside, and what the answer would be with them; empty where none were.
+/// The outlying points, and the verdict with them; empty if there are none.
 std::string outlying_words(const Diagnosis& d) {
   if (d.outlying.empty()) return "";
   const std::string rows = joined(d.outlying, "; ", [&](const OutlyingPoint& point) {
@@ -693,7 +703,7 @@ std::string outlying_words(const Diagnosis& d) {
 }  // namespace
 
 std::vector<std::string> answer_sentences(const Diagnosis& d) {
-  std::vector<std::string> sentences = {outlying_words(d), bound_words(d), wrong_words(d),
+  std::vector<std::string> sentences = {outlying_words(d), bound_words(d), misfit_words(d),
                                         untested_words(d)};
   if (const auto* adequate = d.answer_if<Adequate>()) {
     sentences.push_back(evidence_words(d));
@@ -731,7 +741,7 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
   }
   if (!d.answer_if<Unexplained>()) notes.push_back(rival_errors_words(d));
   const bool shown = !d.answer_if<Adequate>() && !where_words(d).empty();
-  if (const std::string found = found_words(d); shown && !found.empty()) {
+  if (const std::string found = structure_words(d); shown && !found.empty()) {
     notes.push_back(fmt::format("Structure in the residuals: {}.", found));
   }
   add(expected_words(d));

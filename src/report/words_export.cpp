@@ -42,7 +42,7 @@ std::string range_words(const ExportRequest& request) {
   return fmt::format("V from {:.4g} to {:.4g} m/s", request.slowest, request.fastest);
 }
 
-std::string capture_lost(const ExportedImpact& impact) {
+std::string lost_capture_words(const ExportedImpact& impact) {
   if (!impact.captures) return "Neither the fit nor this export captures spheres of this size.";
   return fmt::format(
       "The capture velocity is LOST: in the fit a sphere slower than V* = {:.4g} m/s stays, here "
@@ -65,8 +65,7 @@ std::string parameter_words(const ExportedParameter& p) {
                      p.free ? "no standard error" : "fixed");
 }
 
-}  // namespace
-
+/// The error of e(V) in the other program, and the treatment of captures.
 std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job) {
   std::vector<std::string> out;
   const ExportedImpact& impact = job.impact;
@@ -95,7 +94,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
         other.capture_velocity > 0.0
             ? fmt::format("Captures are kept, with V* = {:.4g} m/s instead of {:.4g} m/s.",
                           other.capture_velocity, impact.capture_velocity)
-            : capture_lost(impact));
+            : lost_capture_words(impact));
   } else if (job.form == ExportForm::approximation) {
     const RestitutionError& error = job.stock->error;
     out.push_back(fmt::format("An approximation, as {}: {}.",
@@ -105,7 +104,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
         "This value has the smallest rms error of e over {}, evenly spaced in log V: {:.4f}; the "
         "largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
         range_words(impact.request), error.rms, error.largest, error.at, error.rebounding));
-    out.push_back(capture_lost(impact));
+    out.push_back(lost_capture_words(impact));
   } else if (target != ExportTarget::table) {
     out.push_back(
         fmt::format("e(V, d) is looked up in a table: e is within {:.1g} of the fit between its "
@@ -129,6 +128,8 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   }
   return out;
 }
+
+}  // namespace
 
 std::vector<std::string> export_heading(ExportTarget target, const ExportSource& source,
                                         const ExportJob& job) {

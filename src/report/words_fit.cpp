@@ -19,7 +19,8 @@ namespace {
 
 using Sentences = std::vector<Sentence>;
 
-/// A likelihood ratio of e^(4/2), about 7 to 1, decides clearly between variance functions.
+/// A difference in -2 ln likelihood, a likelihood ratio of about 7 to 1, from which the choice of a
+/// variance function is called clear.
 constexpr double clear = 4.0;
 
 // ---- noise -------------------------------------------------------------------------------------
@@ -68,7 +69,7 @@ std::string verdict_words(const FitResult& fitted) {
   return "";
 }
 
-/// The largest share of velocity and diameter errors in the error of a point.
+/// The largest contribution of velocity and diameter errors, in standard deviations of e.
 std::string input_words(const std::vector<Observation>& points) {
   double most = 0.0;
   int count = 0;
@@ -110,14 +111,15 @@ std::string setting_words(const Observations& data, int free_count) {
 
 // ---- warnings ----------------------------------------------------------------------------------
 
+/// Appends the sentences that the list does not contain yet.
 void add_new(Sentences& list, const Sentences& more) {
   for (const Sentence& item : more) {
     if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
   }
 }
 
-/// Where the residuals of one dataset are far larger than those of another, though one scale of the
-/// noise is estimated for all: an F test of the most and the least, for all pairs (Bonferroni).
+/// A warning if one noise scale is estimated for all datasets but their residuals differ: F test of
+/// the largest against the smallest mean square, with a Bonferroni correction for all pairs.
 Sentences unequal_noise_warnings(const FitResult& fitted) {
   const std::size_t datasets = fitted.model.contacts.size();
   if (fitted.data.noise.sd_stated || datasets < 2) return {};
@@ -126,18 +128,18 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
     double count = 0.0;
     double mean() const { return square / count; }
   };
-  std::vector<Residuals> of(datasets);
+  std::vector<Residuals> squares(datasets);
   for (std::size_t i = 0; i < fitted.residuals.size(); ++i) {
     const Observation& point = fitted.data.points[i];
     if (point.censored) continue;
-    of[point.dataset].square += fitted.residuals[i] * fitted.residuals[i];
-    of[point.dataset].count += 1.0;
+    squares[point.dataset].square += fitted.residuals[i] * fitted.residuals[i];
+    squares[point.dataset].count += 1.0;
   }
-  std::erase_if(of, [](const Residuals& r) { return !(r.count > 2.0) || !(r.square > 0.0); });
-  if (of.size() < 2) return {};
-  const auto [least, most] = std::minmax_element(
-      of.begin(), of.end(),
-      [](const Residuals& a, const Residuals& b) { return a.mean() < b.mean(); });
+  std::erase_if(squares, [](const Residuals& r) { return !(r.count > 2.0) || !(r.square > 0.0); });
+  if (squares.size() < 2) return {};
+  const auto [least, most] =
+      std::minmax_element(squares.begin(), squares.end(),
+                          [](const auto& a, const auto& b) { return a.mean() < b.mean(); });
   constexpr double level = 0.01;
   const double ratio = most->mean() / least->mean();
   const double pairs = static_cast<double>(datasets * (datasets - 1));
@@ -149,14 +151,14 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
                   std::sqrt(ratio))};
 }
 
-/// Shared errors that the points cannot show.
+/// Warnings about errors shared by the points of a setting that the points cannot determine.
 Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
   if (!data.noise.setting_sd_estimated) return {};
   if (spare_settings(data, fitted.model.free_count()) > 0) {
-    // Without adhesion e hardly depends on V, and an error of V is one of e.
+    // Without adhesion e hardly depends on V, so a shared error of V acts like one of e.
     if (!adheres_anywhere(fitted.model)) return {};
-    std::map<std::size_t, double> velocity;  // of a setting
+    std::map<std::size_t, double> velocity;  // by setting
     for (const Observation& point : data.points) {
       if (velocity.try_emplace(point.setting, point.velocity).first->second != point.velocity) {
         return {};
@@ -175,10 +177,11 @@ Sentences setting_warnings(const FitResult& fitted) {
                   settings, settings == 1 ? "" : "s")};
 }
 
-/// A standard deviation computed from fewer impacts is off by a fifth or more: 1 / sqrt(2 (n - 1)).
+/// A standard deviation from n impacts has a relative error of 1 / sqrt(2 (n - 1)), which is about
+/// a fifth for this number.
 constexpr int few_impacts = 15;
 
-/// Standard deviations that the fit did not use.
+/// Warnings about missing, imprecise and ignored standard deviations.
 Sentences data_warnings(const Observations& data) {
   if (data.noise.sd_stated && data.noise.sd_missing > 0) {
     return {
@@ -203,7 +206,7 @@ Sentences data_warnings(const Observations& data) {
                   data.noise.sd_set_aside)};
 }
 
-/// Parameters that the fit does not determine.
+/// Warnings about parameters that the fit does not determine.
 Sentences undetermined_warnings(const FitResult& fitted) {
   if (!fitted.flat.empty()) {
     return {say(
@@ -335,17 +338,11 @@ Sentence quality_words(const FitResult& f) {
              number(f.chi2, 4), f.dof, p);
 }
 
-namespace {
-
-/// The id of a law of loss as people write it.
-std::string loss_name(const std::string& id) {
-  return id == "hunt_crossley" ? "Hunt-Crossley" : id;
-}
-
-}  // namespace
-
 Sentence loss_words(const Analysis& a) {
   if (a.losses.empty()) return {};
+  const auto loss_name = [](const std::string& id) {
+    return id == hunt_crossley ? "Hunt-Crossley" : id;
+  };
   constexpr double as_good = 2.0;  // Burnham & Anderson 2002, section 2.6
   std::vector<std::string> equals;
   std::vector<std::string> others;
@@ -382,19 +379,14 @@ std::string noise_words(const FitResult& fitted) {
 }
 
 std::string scale_words(VarianceFunction function, double scale) {
-  switch (function) {
-    case VarianceFunction::proportional:
-      return fmt::format("sd(e) = {:.3g} e", scale);
-    case VarianceFunction::capture:
-      return fmt::format("sd(e^2) = {:.3g}", scale);
-    case VarianceFunction::steep:
-      return fmt::format("sd(e) = {:.3g} exp(2 (V* / V)^2)", scale);
-    case VarianceFunction::constant:
-      return fmt::format("sd(e) = {:.3g}", scale);
-    case VarianceFunction::stated:
-      break;
-  }
-  return "sd(e) as stated";
+  using enum VarianceFunction;
+  static constexpr Phrase<VarianceFunction> patterns[] = {
+      {stated, "sd(e) as stated"},
+      {constant, "sd(e) = {:.3g}"},
+      {proportional, "sd(e) = {:.3g} e"},
+      {capture, "sd(e^2) = {:.3g}"},
+      {steep, "sd(e) = {:.3g} exp(2 (V* / V)^2)"}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, function).words), scale);
 }
 
 Sentence two_point_words(const FitResult& fitted, std::size_t dataset,

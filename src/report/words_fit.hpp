@@ -6,109 +6,103 @@
 #include "analysis/analysis.hpp"
 #include "document/sentence.hpp"
 
-/// A fit in words. Phrases begin with a small letter and have no full stop, so that they fit into
-/// sentences (`as_sentence`).
+/// Text about a fit. Phrases begin with a small letter and have no full stop; `as_sentence` makes
+/// sentences of them.
 namespace recoil {
 
 /// The equation of motion with its source.
 Sentence equation_words(AdhesionLaw law);
 
-/// Does the model fit? With the p-value, or the reason why it cannot be tested.
+/// Whether the model fits, with the p-value, or why this cannot be tested.
 Sentence quality_words(const FitResult& fitted);
 
-/// Which law of loss the points chose, and how near the others are; empty where they chose none.
+/// The law of loss with the smallest AICc, and how far the AICc of the others is above it; empty if
+/// no laws were compared.
 Sentence loss_words(const Analysis& analysis);
 
-/// The noise that the fit used and the evidence for it, in clauses with semicolons.
+/// The noise model of the fit and the evidence for it.
 std::string noise_words(const FitResult& fitted);
 
-/// The scale of an estimated variance function: "sd(e) = 0.021".
+/// A variance function with its scale: "sd(e) = 0.021".
 std::string scale_words(VarianceFunction function, double scale);
 
-/// How the two-point iteration on `dataset` ended, with numbers.
+/// The result of the two-point calibration on `dataset`.
 Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
                          const TwoPointResult& result);
 
-/// The warning about residuals that are larger than stated.
+/// The warning that the residuals are larger than the stated noise.
 Sentence noise_warning(const FitResult& fitted);
 
-/// Warnings about the fit itself, the gravest first.
+/// Warnings about the fit itself, the most important first.
 std::vector<Sentence> fit_warnings(const FitResult& fitted);
 
-/// Warnings of every stage, the gravest first, without repetition; the last are contradictions
-/// among the stated inputs, "dataset: sentence".
+/// Warnings of all stages, the most important first, without repetition. Contradictions among the
+/// stated inputs are last.
 std::vector<Sentence> all_warnings(const Analysis& analysis);
 
-/// "Wald", "profile", "percentile", "BCa", "studentized".
+/// The name of a kind of interval: "Wald", "profile", "percentile", "BCa", "studentized".
 std::string words_of(IntervalKind kind);
 
-/// Why there is no interval: "the parameter is fixed"; empty where there is one.
+/// Why there is no interval: "the parameter is fixed"; empty if there is one.
 std::string missing_words(const Interval& interval);
 
-/// The caution about the interval of `what` ("C_A", "the capture velocity"); empty without one.
+/// The caution about the interval of `what` ("C_A", "the capture velocity"); empty if there is
+/// none.
 Sentence note_words(const Interval& interval, const Sentence& what);
 
-/// The same for a table: "upper limit"; empty for a caution that needs a sentence.
+/// A caution in a table: "upper limit"; empty if it needs a whole sentence (`note_words`).
 std::string short_note(Caution caution);
 
-/// Why the recommended interval is the one to quote.
+/// Why this interval is recommended.
 std::string recommended_words(const IntervalSet& set);
 std::string recommended_words(const CaptureEstimate& capture);
 
-/// Why the intervals of a parameter differ; empty when they agree.
+/// Why the intervals of a parameter differ; empty if they agree.
 Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set);
 
-/// Why the resampling scheme was used, and what it resamples.
+/// Why this resampling scheme was used, and what it resamples.
 std::string scheme_words(const BootstrapResult& bootstrap);
 
-/// Which refits failed, and with which data; empty when none did.
+/// The number of failed refits and the points in which their data differ from the others; empty if
+/// none failed.
 std::string failures_words(const BootstrapResult& bootstrap, const Observations& data);
 
-/// The minimiser's message in the first of them.
+/// The minimiser's message for the first failed refit.
 std::string failure_message(const FailedReplicates& failures);
 
-/// Why no diameter is held out when two points are compared with all; empty where one is.
+/// Why the two-point comparison holds out no diameter; empty if it does.
 std::string held_out_words(const TwoPointComparison& comparison);
 
-/// "f0^0.97 C_A^0.25 (the capture velocity: ...)": the product that a direction stands for.
+/// The product of powers that a direction in ln theta determines: "f0^0.97 C_A^0.25 (the capture
+/// velocity: ...)".
 Sentence direction_words(const FitResult& fitted, const InformationDirection& direction);
 
-/// Which parameters are poorly determined, why, and what to measure.
+/// Which parameters are poorly determined, why, and which points would help.
 Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty);
 
-/// Warnings about replicates and capture velocities, one sentence each.
+/// Warnings about bootstrap replicates and capture velocities.
 std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
                                            const Observations& data);
 
-/// Why there is no posterior; empty where there is one.
+/// Why there is no posterior; empty if there is one.
 std::string no_posterior_words(const PosteriorResult& posterior);
-/// Why its points cannot be left out one by one; empty where they are.
+/// Why there is no leave-one-out estimate; empty if there is one.
 std::string no_leave_one_out_words(const PosteriorResult& posterior);
-/// How well the model predicts points that it has not seen, and which points that cannot be said
-/// of; empty without a posterior.
+/// The leave-one-out estimate (PSIS-LOO; Vehtari, Gelman & Gabry 2017) and the points for which it
+/// is not reliable; empty without a posterior.
 Sentence leave_one_out_words(const Analysis& analysis);
 
-/// "V*(4.9 um)", with the dataset where there are several.
+/// "V*(4.9 um)", with the dataset if there are several.
 Sentence capture_name(const Analysis& analysis, const CaptureEstimate& capture);
 
-/// "scatter of the points", "particle.youngs_modulus".
+/// A source of error: "scatter of the points", "particle.youngs_modulus".
 std::string source_words(const BudgetEntry& entry, const ImpactModel& model);
 
-/// A quantity with a budget of its errors.
-struct BudgetOf {
-  Sentence quantity;
-  std::string unit;
-  const ErrorBudget* budget = nullptr;
-};
-
-/// The budgets of all parameters, and of V* at the reference diameter of each dataset.
-std::vector<BudgetOf> reference_budgets(const Analysis& analysis);
-
-/// What to measure better first, one sentence for the quantities that have the same largest source
-/// of error; empty without uncertain constants.
+/// The largest source of error of every parameter and of V* at each reference diameter. Quantities
+/// with the same source share a sentence. Empty without uncertain constants.
 std::vector<Sentence> budget_sentences(const Analysis& analysis);
 
-/// Constants that the points moved by more than one standard deviation; empty without any.
+/// The constants that the fit moves by at least one standard deviation; empty if there are none.
 Sentence moved_words(const Analysis& analysis);
 
 }  // namespace recoil

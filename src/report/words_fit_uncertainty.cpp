@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/words_fit.hpp"
@@ -51,7 +50,7 @@ Sentence undecided_words(const Sentence& what, double factor) {
       what, factor);
 }
 
-/// The mechanism that describes several sizes in one point.
+/// The id of the mechanism for points that average over several sizes.
 std::string_view mechanism_of_sizes() {
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     if (mechanism.info.mixes_sizes) return mechanism.info.id;
@@ -96,39 +95,33 @@ std::string suspect_words(const FailedReplicates::Suspect& suspect, Scheme schem
 
 // ---- identifiability ---------------------------------------------------------------------------
 
-/// "2.1 %", or "a factor of 3" where the error is too large for per cents.
-std::string known_to(double relative_sd) {
-  constexpr double still_percent = 0.5;
-  constexpr double still_known = 7.0;  // a factor of 1100
-  if (!(relative_sd < still_known)) return "nothing at all";
-  if (relative_sd < still_percent) return fmt::format("{:.2g} %", 100.0 * relative_sd);
+/// A relative error in words: "2.1 %", or "a factor of 3" for a large one.
+std::string precision_words(double relative_sd) {
+  constexpr double largest_percentage = 0.5;
+  constexpr double largest_factor = 7.0;  // ln of a factor of 1100
+  if (!(relative_sd < largest_factor)) return "nothing at all";
+  if (relative_sd < largest_percentage) return fmt::format("{:.2g} %", 100.0 * relative_sd);
   return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
 }
 
-/// Why a parameter is poorly determined, after its name.
+/// Why a parameter is poorly determined, as the predicate of a sentence.
 std::string hindrance_words(const ParameterIdentifiability& found, const Interval& interval) {
-  switch (*found.hindrance) {
-    case Hindrance::no_interval:
-      return "has no interval: " + missing_words(interval);
-    case Hindrance::reaches_upper_bound:
-      return "reaches its upper bound";
-    case Hindrance::reaches_lower_bound:
-      return "reaches its lower bound";
-    case Hindrance::rests_on_bound:
-      return "is at its bound";
-    case Hindrance::consistent_with_zero:
-      return "is consistent with zero";
-    case Hindrance::large_error:
-      return fmt::format("is known only to {:.0f} %", 100.0 * found.relative_error);
-    case Hindrance::uncertain_error:
-      return fmt::format(
-          "has an error of {:.0f} %, or up to {:.0f} % because the noise is estimated",
-          100.0 * found.relative_error, 100.0 * found.largest_relative_error);
-    case Hindrance::undecided_noise:
-    case Hindrance::wide_spread:
-      break;  // sentences of their own
-  }
-  return "";
+  using enum Hindrance;
+  static constexpr Phrase<Hindrance> patterns[] = {
+      {no_interval, "has no interval: {why}"},
+      {reaches_upper_bound, "reaches its upper bound"},
+      {reaches_lower_bound, "reaches its lower bound"},
+      {rests_on_bound, "is at its bound"},
+      {consistent_with_zero, "is consistent with zero"},
+      {large_error, "is known only to {error:.0f} %"},
+      {uncertain_error,
+       "has an error of {error:.0f} %, or up to {largest:.0f} % because the noise is estimated"},
+      {undecided_noise, ""},  // parameter_sentences handles this and the next one
+      {wide_spread, ""}};
+  return fmt::format(fmt::runtime(phrase_for(patterns, *found.hindrance).words),
+                     fmt::arg("why", missing_words(interval)),
+                     fmt::arg("error", 100.0 * found.relative_error),
+                     fmt::arg("largest", 100.0 * found.largest_relative_error));
 }
 
 Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& uncertainty) {
@@ -158,7 +151,7 @@ Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& 
   return sentences;
 }
 
-/// Parameters that are known together only, and how well their combinations are.
+/// Strongly correlated parameters, and how well the points determine their combinations.
 Sentences correlation_sentences(const FitResult& fitted, const Identifiability& found) {
   Sentences sentences;
   for (const auto& [one, other, correlation] : found.correlated) {
@@ -168,14 +161,14 @@ Sentences correlation_sentences(const FitResult& fitted, const Identifiability& 
   }
   const auto& directions = found.information.directions;
   if (found.correlated.empty() || directions.size() < 2) return sentences;
-  sentences.push_back(
-      say("the points determine {} to {}, but {} only to {}",
-          direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
-          direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
+  sentences.push_back(say(
+      "the points determine {} to {}, but {} only to {}",
+      direction_words(fitted, directions.front()), precision_words(directions.front().relative_sd),
+      direction_words(fitted, directions.back()), precision_words(directions.back().relative_sd)));
   return sentences;
 }
 
-/// How near the points come to the capture velocity, and what more of them would determine.
+/// The slowest impacts relative to the capture velocity, and the benefit of more points there.
 Sentences reach_sentences(const FitResult& fitted, const Identifiability& found) {
   Sentences sentences;
   if (found.slowest) {
@@ -185,8 +178,8 @@ Sentences reach_sentences(const FitResult& fitted, const Identifiability& found)
   if (!found.more_points || fitted.covariance.empty()) return sentences;
   Sentences gains;
   for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
-    gains.push_back(
-        say("{} to {} instead of {}", label_of(fitted.model, slot), known_to(then), known_to(now)));
+    gains.push_back(say("{} to {} instead of {}", label_of(fitted.model, slot),
+                        precision_words(then), precision_words(now)));
   }
   if (gains.empty()) return sentences;
   const PlannedPoints& plan = found.information.plans.front();
@@ -211,17 +204,7 @@ Sentence words_of(Combination combination) {
 }  // namespace
 
 std::string words_of(IntervalKind kind) {
-  switch (kind) {
-    case IntervalKind::wald:
-      return "Wald";
-    case IntervalKind::bca:
-      return "BCa";
-    case IntervalKind::profile:
-    case IntervalKind::percentile:
-    case IntervalKind::studentized:
-      break;
-  }
-  return to_string(kind);
+  return kind == IntervalKind::wald ? "Wald" : kind == IntervalKind::bca ? "BCa" : to_string(kind);
 }
 
 std::string missing_words(const Interval& interval) {
@@ -302,22 +285,21 @@ std::string recommended_words(const IntervalSet& set) {
 }
 
 std::string recommended_words(const CaptureEstimate& capture) {
+  using enum CaptureBecause;
+  static constexpr Phrase<CaptureBecause> reasons[] = {
+      {no_delta, ""},
+      {at_bound, "a parameter is at its bound, which the delta method ignores"},
+      {bend, "V* is not linear in the parameters, as the delta method assumes"},
+      {no_percentiles, "there are no percentiles: "},
+      {spread_estimated, "the error includes that of the estimated spread of the impacts"},
+      {noise_estimated, "the error includes that of the estimated noise"}};
   if (!capture.because) return "";
-  switch (*capture.because) {
-    case CaptureBecause::no_delta:
-      return missing_words(capture[CaptureIntervalKind::delta]);
-    case CaptureBecause::at_bound:
-      return "a parameter is at its bound, which the delta method ignores";
-    case CaptureBecause::bend:
-      return "V* is not linear in the parameters, as the delta method assumes";
-    case CaptureBecause::no_percentiles:
-      return "there are no percentiles: " + missing_words(capture[CaptureIntervalKind::percentile]);
-    case CaptureBecause::spread_estimated:
-      return "the error includes that of the estimated spread of the impacts";
-    case CaptureBecause::noise_estimated:
-      return "the error includes that of the estimated noise";
+  std::string words = phrase_for(reasons, *capture.because).words;
+  if (capture.because == no_delta) words += missing_words(capture[CaptureIntervalKind::delta]);
+  if (capture.because == no_percentiles) {
+    words += missing_words(capture[CaptureIntervalKind::percentile]);
   }
-  return "";
+  return words;
 }
 
 Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
@@ -349,30 +331,20 @@ Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const Int
 }
 
 std::string scheme_words(const BootstrapResult& bootstrap) {
-  std::string why;
-  switch (bootstrap.because) {
-    case SchemeBecause::asked_for:
-      why = "requested";
-      break;
-    case SchemeBecause::sd_stated:
-      why = "every point states its standard deviation";
-      break;
-    case SchemeBecause::sd_not_stated:
-      why = "no standard deviations are stated";
-      break;
-    case SchemeBecause::no_residuals:
-      why = "no point rebounded, so there are no residuals";
-      break;
-    case SchemeBecause::shared_sizes:
-      why = "points of one series share an error of their diameter";
-      break;
-  }
+  using enum SchemeBecause;
+  static constexpr Phrase<SchemeBecause> reasons[] = {
+      {asked_for, "requested"},
+      {sd_stated, "every point states its standard deviation"},
+      {sd_not_stated, "no standard deviations are stated"},
+      {no_residuals, "no point rebounded, so there are no residuals"},
+      {shared_sizes, "points of one series share an error of their diameter"}};
   constexpr std::size_t few = 10;
   const bool too_few = bootstrap.scheme == Scheme::cluster && bootstrap.series < few;
-  return fmt::format("{}: {}{}", why, resampled_words(bootstrap.scheme),
-                     too_few ? fmt::format("; {} series are too few, so intervals are too narrow",
-                                           bootstrap.series)
-                             : std::string());
+  return fmt::format(
+      "{}: {}{}", phrase_for(reasons, bootstrap.because).words, resampled_words(bootstrap.scheme),
+      too_few
+          ? fmt::format("; {} series are too few, so intervals are too narrow", bootstrap.series)
+          : std::string());
 }
 
 std::string failure_message(const FailedReplicates& failures) {
@@ -383,14 +355,14 @@ std::string failure_message(const FailedReplicates& failures) {
 std::string failures_words(const BootstrapResult& bootstrap, const Observations& data) {
   const FailedReplicates& failures = bootstrap.failures;
   if (failures.index.empty()) return "";
-  std::vector<std::string> unlike;
+  std::vector<std::string> suspects;
   for (const FailedReplicates::Suspect& suspect : failures.suspects) {
-    if (!unlike.empty() && !suspect.clearly_unlike) continue;
-    unlike.push_back(suspect_words(suspect, bootstrap.scheme, data));
+    if (!suspects.empty() && !suspect.clearly_unlike) continue;
+    suspects.push_back(suspect_words(suspect, bootstrap.scheme, data));
   }
   return fmt::format("{} of {} refits failed{}{}. The first is replicate {} (seed {}): {}",
                      failures.index.size(), bootstrap.replicates,
-                     unlike.empty() ? "" : "; in them ", fmt::join(unlike, "; "),
+                     suspects.empty() ? "" : "; in them ", fmt::join(suspects, "; "),
                      failures.index.front(), bootstrap.seed, failure_message(failures));
 }
 
@@ -452,7 +424,7 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
                     boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
   }
   Sentences all_sizes;
-  std::vector<std::pair<Sentence, Sentences>> remarks;  // each once, with all its sizes
+  std::vector<std::pair<Sentence, Sentences>> remarks;  // every remark with its sizes
   const auto add_once = [](const Sentence& size, Sentences& sizes) {
     if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
   };
@@ -536,54 +508,40 @@ Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {
 }
 
 std::string source_words(const BudgetEntry& entry, const ImpactModel& model) {
-  switch (entry.source) {
-    case BudgetSource::scatter:
-      return "scatter of the points";
-    case BudgetSource::velocity:
-      return "errors of the velocities";
-    case BudgetSource::diameter:
-      return "errors of the diameters";
-    case BudgetSource::spread:
-      return "the estimated spread of the impacts";
-    case BudgetSource::constant:
-      return model.slots[model.first_constant() + entry.constant].label();
-    case BudgetSource::numerics:
-      return "numerics";
-  }
-  return {};
-}
-
-std::vector<BudgetOf> reference_budgets(const Analysis& a) {
-  std::vector<BudgetOf> all;
-  const auto& slots = a.fitted.model.slots;
-  for (std::size_t j = 0; j < a.uncertainty.budgets.size(); ++j) {
-    const ErrorBudget& budget = a.uncertainty.budgets[j];
-    if (!budget.available()) continue;
-    all.push_back({parameter_words(a.fitted.model, j, a.datasets),
-                   std::string(slots[j].parameter->unit), &budget});
-  }
-  for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
-    const ErrorBudget& budget = a.uncertainty.capture_budgets[k];
-    const CaptureEstimate& capture = a.uncertainty.capture[k];
-    if (!budget.available() || &capture != reference_capture(a, capture.dataset)) continue;
-    all.push_back({capture_name(a, capture), "m/s", &budget});
-  }
-  return all;
+  using enum BudgetSource;
+  static constexpr Phrase<BudgetSource> phrases[] = {
+      {scatter, "scatter of the points"},
+      {velocity, "errors of the velocities"},
+      {diameter, "errors of the diameters"},
+      {spread, "the estimated spread of the impacts"},
+      {constant, ""},
+      {numerics, "numerics"}};
+  return entry.source == constant ? model.slots[model.first_constant() + entry.constant].label()
+                                  : phrase_for(phrases, entry.source).words;
 }
 
 std::vector<Sentence> budget_sentences(const Analysis& a) {
   std::vector<std::pair<std::string, Sentences>> by_source;
   const ImpactModel& model = a.fitted.model;
   if (model.constants.empty()) return {};
-  for (const BudgetOf& of : reference_budgets(a)) {
-    const BudgetEntry& first = of.budget->entries.front();
+  const auto add = [&](const Sentence& quantity, const ErrorBudget& budget) {
+    if (!budget.available()) return;
+    const BudgetEntry& first = budget.entries.front();
     const std::string source = first.source == BudgetSource::constant
                                    ? "the " + constant_words(model, first.constant, a.datasets)
                                    : source_words(first, model);
     auto found = std::find_if(by_source.begin(), by_source.end(),
                               [&](const auto& one) { return one.first == source; });
     if (found == by_source.end()) found = by_source.insert(found, {source, {}});
-    found->second.push_back(say("{} ({:.0f} %)", of.quantity, 100.0 * first.share));
+    found->second.push_back(say("{} ({:.0f} %)", quantity, 100.0 * first.share));
+  };
+  for (std::size_t j = 0; j < a.uncertainty.budgets.size(); ++j) {
+    add(parameter_words(model, j, a.datasets), a.uncertainty.budgets[j]);
+  }
+  for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
+    const CaptureEstimate& capture = a.uncertainty.capture[k];
+    if (&capture != reference_capture(a, capture.dataset)) continue;
+    add(capture_name(a, capture), a.uncertainty.capture_budgets[k]);
   }
   Sentences sentences;
   for (const auto& [source, quantities] : by_source) {

@@ -1,4 +1,4 @@
-// Whatever a user gets wrong is answered with one clear line, exit status 2, and no file.
+// A mistake of the user causes one clear line, exit status 2, and no file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using support::Outcome;
 using support::Workplace;
 
-/// The grammar of every complaint, and that nothing else happened.
+/// Checks the form of an error message, and that nothing was written.
 void expect_refusal(const Outcome& run, const std::vector<std::string>& words) {
   support::count_hostile_cases();
   EXPECT_EQ(run.status, 2) << "stdout: " << run.out << "\nstderr: " << run.err;
@@ -32,7 +32,7 @@ void expect_refusal(const Outcome& run, const std::vector<std::string>& words) {
   }
 }
 
-/// A mistake in a file: how it is made, and what the message has to name.
+/// A mistake in a file, and the words that the message must contain.
 struct FileMistake {
   std::string name;
   std::function<void(const Workplace&)> make;

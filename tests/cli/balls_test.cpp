@@ -106,7 +106,7 @@ TEST(BallsByHand, AreNotToldOfAdhesionThatIsNotThere) {
                     Not(HasSubstr("e+04 um"))));
 }
 
-/// Drops of a ball by hand, imported as `ball`, and a fit of C_H alone.
+/// Drops of a ball by hand, imported as `ball`, and a fit with only C_H free.
 class Drops : public Workplace {
  public:
   Drops(const std::string& csv, const std::string& map, const std::vector<std::string>& errors) {
@@ -152,7 +152,7 @@ class Drops : public Workplace {
 };
 
 TEST(BallsByHand, OneHeightTellsOfNoDependenceOnVelocity) {
-  // sqrt(e^2) = sqrt(0.36 to 0.38), with readings of 3 mm: nothing is wrong.
+  // sqrt(e^2) = sqrt(0.36 to 0.38), within the reading error of 3 mm.
   const Drops drops("h1,h2\n85,31.0\n85,31.3\n85,30.8\n85,31.2\n85,31.1\n",
                     "drop_height=h1:cm,rebound_height=h2:cm",
                     {"--rebound-error", "3mm", "--drop-error", "1mm"});
@@ -188,9 +188,10 @@ TEST(BallsByHand, ThreeHeightsChooseTheLawOfLoss) {
   drops.write("ball.toml",
               "dataset = \"ball\"\n[model]\nloss = \"hunt_crossley\"\n"
               "[uncertainty]\nreplicates = 0\n");
-  EXPECT_THAT(drops.answer_of("fit"),
-              AllOf(HasSubstr("does not fit"), Not(HasSubstr("Law of loss")),
-                    Not(HasSubstr("capture velocity"))));  // there is none without adhesion
+  EXPECT_THAT(
+      drops.answer_of("fit"),
+      AllOf(HasSubstr("does not fit"), Not(HasSubstr("Law of loss")),
+            Not(HasSubstr("capture velocity"))));  // without adhesion there is no capture velocity
   EXPECT_THAT(drops.answer_of("diagnose"), Not(HasSubstr("describes these points")));
   const Outcome rejected = drops.run({"export", "ball.toml", "--to", "liggghts", "--out", "out"});
   EXPECT_THAT(rejected.out, HasSubstr("The points reject this model"));

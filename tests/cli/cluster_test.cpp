@@ -34,7 +34,7 @@ TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
     for (const auto& entry : fs::directory_iterator(place.path() / "job")) {
       found.push_back(entry.path().filename().string());
       const std::string text = place.read(fs::path("job") / found.back());
-      // Every place has its value: what is left is Slurm's own.
+      // Every placeholder is replaced. The remaining @ belongs to Slurm.
       EXPECT_EQ(std::count(text.begin(), text.end(), '@'), found.back() == "array.sbatch" ? 1 : 0)
           << text;
       EXPECT_EQ(run_command({"sh", "-n", found.back()}, place.path() / "job").status, 0) << text;
@@ -93,7 +93,7 @@ TEST(Cluster, ATimeLimitKeepsWhatIsFinished) {
   const Workplace place;
   ASSERT_EQ(place.run(cluster("slurm", {"fit.toml", "--replicates", "1000000"})).status, 0);
   const std::string script = (place.path() / "job/shard.sh").string();
-  // SIGTERM for the script alone, and for every process of it.
+  // SIGTERM to the script only, and to all of its processes.
   for (const char* who : {"--foreground", "--verbose"}) {
     bool kept = false;
     for (int seconds = 1; seconds <= 16 && !kept; seconds *= 2) {

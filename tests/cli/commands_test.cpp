@@ -38,7 +38,7 @@ TEST(Simulate, HertzWithHuntCrossleyDampingToNineDigits) {
   const Outcome run = place.run({"simulate", "hertz.toml", "--velocity", "5", "--diameter", "4.9"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("restitution: 0.93747558\n"), std::string::npos) << run.out;
-  // Whose parameters these are comes first: nobody should take a guess for a fit.
+  // The source of the parameters comes first, so that initial values do not pass for fitted ones.
   EXPECT_EQ(run.out.rfind("parameters: initial values of the fit file (--parameters", 0), 0U)
       << run.out;
   EXPECT_NE(run.out.find("outcome: rebound\n"), std::string::npos);

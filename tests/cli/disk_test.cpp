@@ -1,5 +1,5 @@
-// Every command that writes files, on a disk that is full, read-only, or gone: one clear line, what
-// was there stays whole, and nothing lies about.
+// Commands that write to a full, read-only or missing disk print one clear line, keep existing
+// files whole, and leave no temporary files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ class Disk : public ::testing::TestWithParam<std::string> {
 
   const Words& command() const { return commands().at(GetParam()); }
 
-  /// Every file in the place, with what is in it.
+  /// All files in the folder, with their contents.
   std::map<std::string, std::string> there() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(disk_ / "place/disk")) {

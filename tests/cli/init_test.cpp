@@ -1,4 +1,4 @@
-// recoil init: from nothing to a fit that runs, and nothing overwritten.
+// recoil init makes a dataset and a fit that runs, and overwrites nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

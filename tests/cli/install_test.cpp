@@ -1,4 +1,4 @@
-// What is installed works where there is no source tree.
+// The installed program and library work without the source tree.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -131,8 +131,8 @@ int main(int, char** arguments) {
   EXPECT_TRUE(both[1]["verdict"].is_string());
 }
 
-// `./run test` in such a folder: configured with everything, each command of the build worked out,
-// one target built, and the scripts that are given files of that folder.
+// The source folder may have special characters in its name: configures the build there, builds one
+// target, and runs the scripts that get files of this folder.
 TEST(Install, TheFolderOfTheSourcesMayHaveAnyName) {
   const support::TemporaryFolder place;
   const fs::path tree = place / kMeaningful;

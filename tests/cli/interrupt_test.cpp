@@ -1,5 +1,5 @@
-// Ctrl-C in the middle of a bootstrap, sent for real: what is finished stays, the same command goes
-// on from there, and nothing shows in the result that it was ever stopped.
+// Ctrl-C during a bootstrap keeps the finished replicates. The same command continues, and the
+// result equals that of an uninterrupted run.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -57,8 +57,8 @@ std::size_t kept_replicates(const fs::path& file) {
   return lines == 0 ? 0 : lines - 1;
 }
 
-/// Stops a fit with more replicates than any machine finishes in time, by SIGINT, as soon as it is
-/// well in its bootstrap: a slow machine may still be reading when it is stopped first.
+/// Starts a fit with very many replicates and stops it by SIGINT during its bootstrap. Retries if a
+/// slow machine has not reached the bootstrap.
 int stopped_long_fit(const Workplace& place, const std::string& out) {
   int status = 0;
   for (int delay = 500; delay < 40000; delay *= 2) {
@@ -81,7 +81,7 @@ TEST(Interrupt, KeepsFinishedReplicatesAndEndsAsTheSignalWould) {
   const std::size_t kept = kept_replicates(place.path() / "out/unfinished-fit.json.jsonl");
   EXPECT_GT(kept, 10U);
   EXPECT_LT(kept, 1000000U);
-  // Whole files only: nothing half-written lies about.
+  // Only complete files exist.
   for (const std::string& name : place.listing()) {
     EXPECT_EQ(name.find(".part"), std::string::npos) << name;
   }

@@ -1,5 +1,5 @@
-// Long commands that are stopped or killed, for real: what is finished stays, the same command goes
-// on from there, and no byte of the results tells of it.
+// Long commands that are stopped or killed keep their finished work. The same command continues,
+// and its results equal those of an uninterrupted run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ void expect_no_trace(const LongCommand& command) {
   ASSERT_TRUE(fs::exists(kept));
   const std::size_t rows = rows_in(kept);
   EXPECT_GT(rows, 0U);
-  {  // killed, it leaves what there was
+  {  // a killed run leaves existing files unchanged
     Started run(to("broken"), place.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     run.send(SIGKILL);

@@ -336,7 +336,7 @@ TEST(Safety, HostileNamesRunNothingInExportsAndReachNoTerminal) {
         EXPECT_EQ(shown.find("\xc2\x9b"), std::string::npos) << shown;
       }
     }
-    // YADE's names are not known to Python alone, which comes as far as them.
+    // Plain Python runs the script up to the first name that only YADE defines.
     const Outcome python = run_command({"python3", "out/impact.py"}, place.path());
     EXPECT_NE(python.err.find("NameError"), std::string::npos) << name << python.err;
     // The comments of C and C++ are comments: the compilers come as far as the headers of Fluent
@@ -410,8 +410,8 @@ struct Writer {
   std::vector<std::string> files;
 };
 
-/// Runs a command that replaces an earlier result, of which the n-th writing call fails, for all n:
-/// every file is the old one or the new one, and nothing is left beside them.
+/// Runs a command that replaces an earlier result, and lets its n-th writing call fail, for all n.
+/// Every file must be the old or the new one, and there must be no other files.
 void expect_whole_files(const Workplace& place, const Writer& writer) {
   const auto run = [&](const std::string& settings) {
     return run_after(place, "export LD_PRELOAD=" FAILING_CALLS " " + settings, writer.words);

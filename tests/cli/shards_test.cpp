@@ -1,5 +1,5 @@
-// One command in several processes: their parts give the bytes of one process, however many they
-// are, whatever happened to them, and nothing that does not belong together is put together.
+// A command in several shards gives the same bytes as one process, for any number of shards and
+// after interruptions. Parts that do not belong together are not merged.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -50,7 +50,7 @@ std::size_t parts_in(const Workplace& place, const std::string& folder) {
   return count;
 }
 
-/// Writes a part again with other `rows`, its head saying of them what it would of its own.
+/// Replaces the rows of a part, with a head that matches the new rows.
 void put_rows(const Workplace& place, const std::string& part, const std::string& rows) {
   const std::string text = place.read(part);
   auto head = nlohmann::ordered_json::parse(text.substr(0, text.find('\n')));
@@ -70,7 +70,7 @@ TEST(Shards, AnyNumberOfThemGivesTheBytesOfOneFit) {
   const Words few = with(fit, {"--replicates", "9"});
   const Outcome whole = place.run(with(few, {"--out", "whole"}));
   ASSERT_EQ(whole.status, 0) << whole.err;
-  for (const int of : {1, 3, 11}) {  // of the eleven two have none
+  for (const int of : {1, 3, 11}) {  // two of the eleven shards have no piece
     const std::string folder = "parts-" + std::to_string(of);
     std::vector<int> backwards;
     for (int number = of; number >= 1; --number) backwards.push_back(number);
@@ -224,7 +224,7 @@ TEST(Shards, TheMergeRefusesWhatDoesNotBelongTogether) {
   place.change("data/points.csv", "2.4,0.651", "2.4,0.650");
   run_shards(place, fit, {2}, 2, "inputs");
   refused("inputs", "the fit file or the data have changed");
-  // All parts agree, but no longer with what is here.
+  // The parts agree with each other, but not with the present inputs.
   refused("changed", "the fit file or the data have changed");
   EXPECT_EQ(place.run({"merge", "data"}).status, 2);
   EXPECT_EQ(place.run({"merge", "nowhere"}).status, 2);
@@ -304,7 +304,7 @@ TEST(Shards, APartFromAnotherProcessorNeverChangesAByte) {
     run_shards(place, command, {2}, 2, "parts");
   }
   Outcome merged = place.run({"merge", "parts"});
-  if (merged.status == 3) {  // its digits differ, and it is told
+  if (merged.status == 3) {  // the message reports different digits
     EXPECT_NE(merged.err.find("parts from processors that give other digits"), std::string::npos);
     EXPECT_NE(merged.err.find("--array=2\n"), std::string::npos) << merged.err;
     run_shards(place, command, {2}, 2, "parts");
@@ -338,7 +338,7 @@ TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
     for (const char* name : {"diagnosis.json", "diagnosis.html", "extended.toml"}) {
       EXPECT_EQ(place.read(fs::path("parts") / name), place.read(fs::path("whole") / name)) << name;
     }
-    // A mark in one row shows that the rows are what the answer rests on.
+    // A changed row must change the answer, which shows that the rows are used.
     for (const std::string& name : files_in(place, "parts")) {
       if (!name.starts_with("part-1-")) continue;
       const std::string text = place.read("parts/" + name);

@@ -1,4 +1,4 @@
-// What ./run makes of the shipped fits, with few replicates: pages that open and say what they are.
+// The pages of the shipped fits, made with few replicates, open in a browser.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ const char* const shipped[] = {
     "wall1990-mica",      "wall1990-molybdenum",   "wall1990-silicon",
 };
 
-/// Words that a page shows before and after everything is unfolded: all text outside of scripts,
-/// styles and pictures.
+/// Numbers of words on a page with folded and with unfolded sections, without scripts, styles and
+/// pictures.
 struct Words {
   std::size_t folded = 0, all = 0;
 };
@@ -130,15 +130,15 @@ TEST(ShippedFits, AnswerWithin25LinesOf80Columns) {
   }
 }
 
-// Its recipe lets C_A grow with the size, which no mechanism does: the misfit is seen, and nothing
-// is named for it.
+// In this reconstruction C_A grows with the size, which no mechanism describes: the misfit is
+// found, and no cause is named.
 TEST(ShippedFits, DiagnosisNamesNoCauseForADampingThatGrowsWithTheSize) {
   const auto answer = diagnosed("fits/wall1990-molybdenum.toml");
   EXPECT_NE(answer["verdict"], "adequate") << answer["text"];
   EXPECT_TRUE(answer["named"].empty()) << answer["text"];
 }
 
-// A second cause must not be invented for what a law, true but not exact, leaves.
+// A law that is correct but not exact leaves a misfit, for which no second cause must be named.
 TEST(ShippedFits, DiagnosisOfYieldingByAnotherLawInventsNothing) {
   const auto answer = diagnosed("tests/cli/yielding_otherwise/fit.toml");
   for (const std::string id : answer["named"]) EXPECT_EQ(id, "plastic_yield") << answer["text"];

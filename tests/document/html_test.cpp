@@ -24,7 +24,8 @@ TEST(Html, SetsSymbolsAndUnits) {
   EXPECT_EQ(html_of(unit("m/s") + unit("um/s")), "m/sµm/s");
   EXPECT_EQ(html_of(symbol("C_A[a<b]")), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
   EXPECT_EQ(html_of(say("{d}{}", exponent("-0.83"))), "<i>d</i><sup>-0.83</sup>");
-  EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-") << "plain text is left alone";
+  EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-")
+      << "plain text is not searched for symbols";
   EXPECT_EQ(html_of(Sentence("6.89 um, 3 +/- 1 J/m2 (p < 1e-6), -1.5e+08.")),
             "6.89 µm, 3 ± 1 J/m² (p &lt; 10<sup>−6</sup>), -1.5 × 10<sup>8</sup>.");
   EXPECT_EQ(html_of(Sentence("2.5e8 Pa, 4 umbrellas, 149d13e4, v1e5")),
@@ -68,6 +69,16 @@ TEST(Html, ATableDropsColumnsThatSayNothing) {
               HasSubstr("<th scope=\"row\">a</th><td>1.0</td><td class=\"words\">words</td>"));
   EXPECT_THAT(html, HasSubstr("<td>n/a</td>"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Html, LabelsOfStackedRowsHaveTheMarkupOfTheHeadings) {
+  Table table;
+  table.columns = {{"calibration"}, {symbol("C_H"), "s/m"}, {say("rms of {e}")}, {"points"}};
+  table.rows = {{"two points", Number{1.0}, Number{2.0}, Number{3.0}}};
+  const std::string html = html_of(std::vector<Block>{table});
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\"><i>C</i><sub>H</sub> [s/m]</th>"));
+  EXPECT_THAT(html, HasSubstr("<td><span class=\"label\"><i>C</i><sub>H</sub> [s/m]</span>1</td>"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"label\">rms of <i>e</i></span>2</td>"));
 }
 
 TEST(Html, ContentsListWhatIsThere) {

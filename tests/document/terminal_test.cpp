@@ -36,7 +36,7 @@ TEST(Terminal, WrapCountsCharactersAndKeepsThemWhole) {
 }
 
 TEST(Terminal, AWordWithoutBlanksIsCutInATimeInProportionToItsLength) {
-  // Were what is left counted again for every line, this would be 6e11 steps.
+  // Counting the rest of the text for every line would take 6e11 steps.
   constexpr std::size_t letters = 10'000'000;
   const std::string text = wrap(std::string(letters, 'x'), 80, 0);
   EXPECT_EQ(text.size(), letters + letters / 80 - 1);

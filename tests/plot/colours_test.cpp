@@ -1,4 +1,4 @@
-// Can the colours of pictures be told apart by those who see fewer of them, and on paper?
+// Colour-blind readers can distinguish the colours of pictures, also on grey paper.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,8 @@ double contrast_with_white(std::string_view colour) {
 }
 
 TEST(Colours, SimulationAndDistanceAreThePublishedOnes) {
-  // Pure sRGB red has L*a*b* 53.24, 80.09, 67.20; greys stay what they are in every sight.
+  // Pure sRGB red has L*a*b* 53.24, 80.09, 67.20; greys look the same with every colour vision
+  // deficiency.
   const Vector red = lab(linear("#ff0000"));
   EXPECT_NEAR(red[0], 53.24, 0.01);
   EXPECT_NEAR(red[1], 80.09, 0.01);
@@ -117,7 +118,7 @@ TEST(Colours, OfLinesBesideMarkersStayApartFromThem) {
 }
 
 TEST(Colours, ThatAreOneGreyOnPaperHaveMarksOfTheirOwn) {
-  // Orange and sky have one luminance: printed without colours only the mark tells them apart.
+  // Orange and sky have the same luminance: in grey only their marks differ.
   int alike = 0;
   for (std::size_t a = 0; a < markers.size(); ++a) {
     for (std::size_t b = a + 1; b < markers.size(); ++b) {
@@ -128,7 +129,7 @@ TEST(Colours, ThatAreOneGreyOnPaperHaveMarksOfTheirOwn) {
       EXPECT_NE(markers[a].mark, markers[b].mark);
     }
   }
-  EXPECT_GT(alike, 0) << "else this has nothing to say";
+  EXPECT_GT(alike, 0) << "otherwise the loop checks no pair";
 }
 
 TEST(Colours, StandOutFromThePaper) {

@@ -145,7 +145,7 @@ TEST(Draw, TextIsNeverMarkup) {
   parsed(svg);
 }
 
-/// The text in `label`, and which letters of it stand lower.
+/// The text in `label` and its subscripts.
 std::pair<std::string, std::string> set_text(const std::string& label) {
   Picture picture = picture_with(three_points());
   picture.plots.front().heading = label;

@@ -9,6 +9,7 @@
 
 #include "document/html.hpp"
 #include "example_analysis.hpp"
+#include "plot/draw.hpp"
 #include "report/fit_report.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
@@ -26,8 +27,8 @@ class Browser : public testing::Test {
     page_ = fit_html(sample::four_diameters());
     const Analysis analysis = sample::four_diameters();
     IndexEntry entry{"page.html", fit_json(analysis)};
-    entry.picture = thumbnail(analysis);
-    index_ = html_index({entry});
+    entry.picture = plot::draw_svg(thumbnail(analysis));
+    index_ = html_page(index_document({entry}));
   }
 
   /// 0 when Chromium is content with `html`.
@@ -72,7 +73,7 @@ TEST_F(Browser, ShowsThePageWithoutScript) {
   EXPECT_EQ(
       open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 6, {"--without-script"}),
       1)
-      << "what only a script can do is not there";
+      << "a page without its script must not show links that need it";
 }
 
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(fit_html(sample::two_datasets()), 11), 0); }

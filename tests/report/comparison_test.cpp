@@ -1,4 +1,4 @@
-// Fits side by side, from what their fit.json say.
+// Comparison of fits by their fit.json.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// A fit.json with what a comparison reads.
+/// A fit.json with the keys that a comparison reads.
 std::string fit_json(const std::string& id, const std::string& adhesion, double chi2,
                      const std::string& C_A, const std::string& capture,
                      const std::string& sha = "abc") {

@@ -17,7 +17,7 @@ Dataset dataset_of(const std::string& package, const std::string& points = examp
   return parse_dataset(package, points, "folder");
 }
 
-/// What stands behind `name`; empty where it is not mentioned.
+/// The value of the row `name`; empty if there is no such row.
 std::string value_of(const Table& table, const std::string& name) {
   for (const auto& row : table.rows) {
     if (plain_text(words_of_cell(row[0])) == name) return plain_text(words_of_cell(row[1]));
@@ -72,7 +72,7 @@ TEST(DatasetDocument, SumsUpEverySeries) {
   EXPECT_EQ(plain_text(words_of_cell(table.rows[0][0])), dataset.series[0]);
 }
 
-/// Seconds of the processor for what `recoil check` does, the least of three.
+/// Processor time of `recoil check` [s], the smallest of three runs.
 double cost_of_check(const std::string& title, std::size_t series) {
   std::string points =
       "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,"

@@ -4,11 +4,10 @@
 
 namespace recoil::sample {
 
-/// A filled analysis of four diameters, 32 points, made without fitting anything: what the writers
-/// need, with numbers of a plausible size.
+/// An analysis of four diameters and 32 points with plausible numbers, made without a fit.
 Analysis four_diameters();
 
-/// Two datasets fitted together, f0 free per dataset, captured points, no stated deviations.
+/// A joint fit of two datasets with f0 free per dataset, captured points and no stated deviations.
 Analysis two_datasets();
 
 }  // namespace recoil::sample

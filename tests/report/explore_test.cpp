@@ -79,7 +79,7 @@ class ExploredLaw : public Explorer, public testing::WithParamInterface<Tried> {
     return outcome.status == 0 ? Json::parse(outcome.out) : Json();
   }
 
-  /// What the page is told, of the words of the program alone.
+  /// The values that the page gets, from the JSON of the program.
   static Json values_of(const Json& one) {
     const bool ring = std::string(GetParam().law) == "ring";
     const double diameter = one["diameter_um"].get<double>() * 1e-6;
@@ -223,7 +223,7 @@ TEST_F(Explorer, MisfitFollowsTheValuesAndTheDiameter) {
   EXPECT_NEAR(found.get<double>() / expected, 1.0, 1e-6);
 }
 
-// Opens the first controls, sets number `k` of them (none: -1), and says what is then seen.
+// Opens the first controls, sets number `k` of them (-1: none) and returns the visible result.
 std::string seen_after(int k, const std::string& value, const std::string& more = "") {
   return fmt::format(
       "new Promise(resolve => {{ const box = document.querySelector('details.explore'); box.open = "
@@ -254,7 +254,7 @@ TEST_F(Explorer, ControlsDrawTheCurveOfTheirValues) {
                 "new Promise(r => { document.querySelector('details.explore').open = false; "
                 "setTimeout(() => r(document.querySelectorAll('path.explored').length), "
                 "300); })"});
-  EXPECT_EQ(seen[0], 0) << "nothing is drawn before it is asked for";
+  EXPECT_EQ(seen[0], 0) << "no curve is drawn before the controls are opened";
   EXPECT_EQ(seen[6], 0) << "nor after";
 
   // The same theta, so the same curve, in the same place.

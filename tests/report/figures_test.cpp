@@ -1,4 +1,4 @@
-// What the pictures of a fit show, as facts: axes, layers, numbers. Nothing is drawn here.
+// The content of the pictures of a fit before they are drawn: axes, layers, numbers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<Kind> layers_of(const plot::Plot& shown) {
   return found;
 }
 
-/// The layer of that kind and name; an empty one where there is none.
+/// The layer of this kind and name; an empty layer if there is none.
 template <class Kind>
 Kind layer_named(const plot::Plot& shown, const std::string& name) {
   for (const Kind& one : layers_of<Kind>(shown)) {

@@ -247,7 +247,7 @@ TEST(FitTables, GiveTheCaptureVelocityOfEverySize) {
   const Table table = capture_table(analysis);
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(number_in(table.rows[0][1]).value, analysis.uncertainty.capture[0].value);
-  // Without adhesion there is none; a fitted f0 is an adhesion.
+  // Without adhesion there is no capture velocity. A free f0 counts as adhesion.
   analysis.fitted.model.contacts[0].adhesion_force = 0.0;
   analysis.fitted.model.slots[analysis.fitted.model.slot_adhesion[0]].free = false;
   EXPECT_TRUE(std::holds_alternative<Sentence>(capture_table(analysis).rows[0][1]));

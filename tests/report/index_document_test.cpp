@@ -4,8 +4,10 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "document/html.hpp"
 #include "example_analysis.hpp"
 #include "page_checks.hpp"
+#include "plot/draw.hpp"
 #include "report/index_page.hpp"
 #include "report/result_json.hpp"
 #include "support/document_parts.hpp"
@@ -17,7 +19,7 @@ using testing::ElementsAre;
 
 IndexEntry entry_of(const Analysis& analysis) {
   IndexEntry entry{analysis.spec.id + ".html", fit_json(analysis)};
-  entry.picture = thumbnail(analysis);
+  entry.picture = plot::draw_svg(thumbnail(analysis));
   return entry;
 }
 
@@ -40,7 +42,7 @@ TEST(Index, HasACardPerFit) {
     entries.push_back(entry_of(analysis));
   }
   const Document index = index_document(entries);
-  expect_self_contained(html_index(entries));
+  expect_self_contained(html_page(index_document(entries)));
   ASSERT_EQ(index.sections.size(), 7U);
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const Section& card = index.sections[k];
@@ -49,8 +51,8 @@ TEST(Index, HasACardPerFit) {
     EXPECT_EQ(figures_of(card).size(), 1U);
     EXPECT_EQ(support::tables_of(card).size(), 1U);
   }
-  EXPECT_EQ(index.foreword.size(), 3U) << "a sentence, and what a reconstruction and measured mean";
-  EXPECT_NO_THROW(html_index({}));
+  EXPECT_EQ(index.foreword.size(), 3U) << "an introduction and banners for two provenances";
+  EXPECT_NO_THROW(html_page(index_document({})));
 }
 
 TEST(Index, ShowsCaptureVelocitiesAndFreeParameters) {
@@ -82,7 +84,7 @@ TEST(Index, SaysTheVerdictOfTheDiagnosisInWordsAndByASign) {
   const std::set<std::string> signs = {named.sign, rivals.sign,
                                        remark(R"({"verdict": "adequate"})").sign,
                                        remark(R"({"verdict": "unexplained"})").sign};
-  EXPECT_EQ(signs.size(), 4U) << "the signs differ, whatever the colours";
+  EXPECT_EQ(signs.size(), 4U) << "the verdicts have different signs";
   EXPECT_TRUE(remark("").sign.empty());
 }
 

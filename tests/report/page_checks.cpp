@@ -52,8 +52,8 @@ void expect_self_contained(const std::string& html) {
     const std::string target = html.substr(at + 4, html.find(')', at) - at - 4);
     EXPECT_TRUE(target.starts_with("#") && ids.contains(target.substr(1))) << target;
   }
-  // Scripts are our own: one program, and data that hold no markup. None is loaded, none is begun
-  // by what a dataset says.
+  // The page has one embedded program and JSON without markup. No script is loaded, and no text of
+  // a dataset starts one.
   const std::size_t programs = occurrences(html, "<script type=\"text/javascript\">");
   const std::size_t data = occurrences(html, "<script type=\"application/json\" class=\"");
   EXPECT_LE(programs, 1U);

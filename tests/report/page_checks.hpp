@@ -4,8 +4,8 @@
 
 namespace recoil {
 
-/// Fails unless `html` is one page that needs nothing else: under 1 MB, every id once, links that
-/// lead somewhere, no script but its own, no network.
+/// Fails unless `html` is a self-contained page: under 1 MB, unique ids, links with targets, no
+/// foreign script, no network access.
 void expect_self_contained(const std::string& html);
 
 }  // namespace recoil

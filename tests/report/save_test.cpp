@@ -50,7 +50,7 @@ std::map<std::string, std::vector<double>> columns_of(const std::string& csv) {
   return columns;
 }
 
-/// A page of one fit and what its links save.
+/// A page of one fit and the files that its links save.
 class SavedPictures : public testing::Test {
  protected:
   static void SetUpTestSuite() {

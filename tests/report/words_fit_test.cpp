@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-/// A usable fit of which there is nothing to say.
+/// A usable fit without warnings.
 FitResult sound() {
   FitResult fitted = sample::four_diameters().fitted;
   fitted.usable = true;

@@ -11,14 +11,14 @@
 namespace recoil {
 namespace {
 
-/// `words` of every value of an enum: none empty, all different.
+/// Expects a different, non-empty text for every value of an enum.
 template <class Enum, class Words>
 void expect_words_for_all(const Words& words) {
   std::set<std::string> all;
   for (const Enum value : values_of<Enum>()) {
-    const std::string said = words(value);
-    EXPECT_FALSE(said.empty()) << name_of(value);
-    EXPECT_TRUE(all.insert(said).second) << name_of(value) << ": " << said;
+    const std::string text = words(value);
+    EXPECT_FALSE(text.empty()) << name_of(value);
+    EXPECT_TRUE(all.insert(text).second) << name_of(value) << ": " << text;
   }
 }
 
