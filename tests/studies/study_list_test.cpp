@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "validation/studies/study_pages.hpp"
 
 namespace recoil {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/names.hpp"
 #include "document/document.hpp"
 #include "experiment/pairing.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 
@@ -61,6 +61,6 @@ struct PairingBar {
 };
 PairingBar bar_of(const PairingStudy& study);
 
-Document pairing_page(const PairingStudy& study);
+Document page_of(const PairingStudy& study);
 
 }  // namespace recoil

@@ -11,7 +11,7 @@
 #include "core/resumable.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/posterior.hpp"
-#include "validation/studies/study_tables.hpp"
+#include "validation/studies/study.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {
@@ -56,16 +56,10 @@ FitSpec spec_of(RankArm arm) {
 
 /// K and f0 from the recipes' own equations.
 Truth truth_with(double C_H, double C_A, double density, double modulus) {
-  Dataset data = fluorescein_on_molybdenum();
-  data.system.particle.density = density;
-  data.system.particle.youngs_modulus = modulus;
-  const DerivedContact contact = derive_recipe_contact(data.system.particle, data.system.surface);
-  Truth truth;
-  truth.density = density;
-  truth.stiffness = contact.stiffness;
-  truth.reference_diameter = *data.system.reference_diameter;
-  truth.adhesion_force =
-      recipe_adhesion_force(contact.stiffness, contact.adhesion_energy, truth.reference_diameter);
+  ImpactSystem system = fluorescein_on_molybdenum().system;
+  system.particle.density = density;
+  system.particle.youngs_modulus = modulus;
+  Truth truth = undamped_truth(system.particle, system.surface, *system.reference_diameter);
   truth.C_H = C_H;
   truth.C_A = C_A;
   return truth;
@@ -288,7 +282,7 @@ double rank_p_value(const std::vector<int>& ranks, const RankBand& band) {
   return static_cast<double>(at - band.least.begin()) / static_cast<double>(band.least.size());
 }
 
-plot::Picture rank_picture(const RankStudy& study) {
+plot::Picture picture_of(const RankStudy& study) {
   plot::Picture picture;
   picture.name = "posterior-ranks";
   picture.title = "Ranks of the truth among draws of the posterior";
@@ -338,7 +332,7 @@ plot::Picture rank_picture(const RankStudy& study) {
   return picture;
 }
 
-Document rank_page(const RankStudy& study) {
+Document page_of(const RankStudy& study) {
   Document page;
   page.heading = "Does the posterior hold what it promises?";
   page.foreword = {Paragraph{say(

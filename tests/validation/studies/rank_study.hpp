@@ -8,7 +8,7 @@
 #include "data/dataset.hpp"
 #include "document/document.hpp"
 #include "plot/plot.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 
@@ -19,8 +19,7 @@ struct NamesOf<RankArm> {
   static constexpr std::array<std::string_view, 4> names = {"stated_noise", "estimated_noise",
                                                             "captures", "uncertain_constants"};
 };
-inline constexpr std::array rank_arms = {RankArm::stated_noise, RankArm::estimated_noise,
-                                         RankArm::captures, RankArm::uncertain_constants};
+inline constexpr std::array rank_arms = values_of<RankArm>();
 
 /// Ammonium fluorescein on molybdenum (Li, Dunn & Brach 1999, Table 1), without points.
 Dataset fluorescein_on_molybdenum();
@@ -67,7 +66,7 @@ RankBand rank_band(int sets);
 /// The share of uniform samples that are as far from uniform.
 double rank_p_value(const std::vector<int>& ranks, const RankBand& band);
 
-Document rank_page(const RankStudy& study);
-plot::Picture rank_picture(const RankStudy& study);
+Document page_of(const RankStudy& study);
+plot::Picture picture_of(const RankStudy& study);
 
 }  // namespace recoil
