@@ -131,15 +131,15 @@ void merge_study(const Options& options) {
 
 void make_one(const Study& study) {
   if (state_of(".", study) == StudyState::current) {
-    fmt::print("  current {}\n", study.result);
+    fmt::print("  current {}\n", study.result());
     return;
   }
   std::istringstream split(study.command);
   Words words(std::istream_iterator<std::string>(split), {});
   const std::string key = study_key(".", study.command);
-  words.insert(words.end(), {"--out", study.result, "--keep", "build/studies/" + key});
+  words.insert(words.end(), {"--out", study.result(), "--keep", "build/studies/" + key});
   run_again(study.name, words);
-  fmt::print("  wrote   {}\n", study.result);
+  fmt::print("  wrote   {}\n", study.result());
 }
 
 void make_studies(const Options& options) {
@@ -156,7 +156,7 @@ void list_studies() {
   fmt::print(
       "Stale studies were made from other sources, fits or data than those that are here.\n");
   for (const Study& study : all_studies()) {
-    fmt::print("  {:8}{:38}{}\n", name_of(state_of(".", study)), study.name, study.result);
+    fmt::print("  {:8}{:38}{}\n", name_of(state_of(".", study)), study.name, study.result());
   }
 }
 

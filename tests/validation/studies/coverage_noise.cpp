@@ -121,6 +121,39 @@ std::vector<Dataset> made_data(const NoiseDesign& design, const std::vector<Targ
   return all;
 }
 
+FitSpec noise_spec(const NoiseDesign& design) {
+  FitSpec spec;
+  spec.id = "noise";
+  spec.uncertainty.materials = Materials::exact;
+  for (const Parameter& parameter : base_parameters()) {
+    ParameterSpec& own = spec.parameters.emplace_back(default_of(parameter));
+    own.per_dataset = design.targets > 1 && parameter.name == "C_A";
+  }
+  return spec;
+}
+
+/// The truth of a design, and its data sets.
+CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed) {
+  auto targets = std::make_shared<std::vector<Target>>();
+  for (int t = 0; t < design.targets; ++t) targets->push_back(target_of(design, t));
+  CoverageTruth truth;
+  truth.origin = TruthOrigin::recipe;
+  truth.simulate = [design, targets, seed](std::uint64_t index) {
+    RandomStream random(seed, RandomPurpose::coverage, index);
+    return made_data(design, *targets, random);
+  };
+  const ImpactModel model = make_model(noise_spec(design), truth.simulate(0));
+  truth.theta = model.initial();
+  for (std::size_t t = 0; t < targets->size(); ++t) {
+    truth.theta[model.slot_C_H[t]] = true_C_H;
+    truth.theta[model.slot_C_A[t]] = true_C_A;
+    for (const double diameter : distinct_diameters(truth.simulate(0)[t])) {
+      truth.capture.push_back({diameter, true_capture_velocity((*targets)[t].truth, diameter)});
+    }
+  }
+  return truth;
+}
+
 std::string noise_key(const NoiseDesign& design, const CoverageOptions& options) {
   return fmt::format("noise {} {} {} {}", design.name, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed);
@@ -185,38 +218,6 @@ const std::vector<NoiseDesign>& noise_designs() {
     return designs;
   }();
   return all;
-}
-
-FitSpec noise_spec(const NoiseDesign& design) {
-  FitSpec spec;
-  spec.id = "noise";
-  spec.uncertainty.materials = Materials::exact;
-  for (const Parameter& parameter : base_parameters()) {
-    ParameterSpec& own = spec.parameters.emplace_back(default_of(parameter));
-    own.per_dataset = design.targets > 1 && parameter.name == "C_A";
-  }
-  return spec;
-}
-
-CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed) {
-  auto targets = std::make_shared<std::vector<Target>>();
-  for (int t = 0; t < design.targets; ++t) targets->push_back(target_of(design, t));
-  CoverageTruth truth;
-  truth.origin = TruthOrigin::recipe;
-  truth.simulate = [design, targets, seed](std::uint64_t index) {
-    RandomStream random(seed, RandomPurpose::coverage, index);
-    return made_data(design, *targets, random);
-  };
-  const ImpactModel model = make_model(noise_spec(design), truth.simulate(0));
-  truth.theta = model.initial();
-  for (std::size_t t = 0; t < targets->size(); ++t) {
-    truth.theta[model.slot_C_H[t]] = true_C_H;
-    truth.theta[model.slot_C_A[t]] = true_C_A;
-    for (const double diameter : distinct_diameters(truth.simulate(0)[t])) {
-      truth.capture.push_back({diameter, true_capture_velocity((*targets)[t].truth, diameter)});
-    }
-  }
-  return truth;
 }
 
 CoverageResult measure_noise(const NoiseDesign& design, const CoverageOptions& options) {

@@ -34,10 +34,6 @@ struct NoiseDesign {
 };
 const std::vector<NoiseDesign>& noise_designs();
 
-/// The truth of a design, and its data sets.
-CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed);
-FitSpec noise_spec(const NoiseDesign& design);
-
 /// `measure_coverage` of a design. A parameter counts as poorly determined also in data sets whose
 /// fit carries the warning of the design, and so does V* without an interval.
 CoverageResult measure_noise(const NoiseDesign& design, const CoverageOptions& options);

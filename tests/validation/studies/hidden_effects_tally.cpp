@@ -250,6 +250,43 @@ OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>& all) {
   return found;
 }
 
+Confusion confusion_of(const std::vector<Answered>& answers) {
+  Confusion c;
+  std::vector<std::string> ids;
+  for (const HiddenEffect& effect : hidden_effects()) {
+    if (effect.kind == EffectKind::careless) continue;
+    c.rows.emplace_back(effect.id);
+    if (effect.kind != EffectKind::outside) ids.emplace_back(effect.id);
+  }
+  c.rows.emplace_back("nothing");
+  c.columns = ids;
+  const std::vector<Mark> others = {Mark::inside,  Mark::outside,   Mark::unexplained,
+                                    Mark::nothing, Mark::resembled, Mark::failed};
+  for (const Mark mark : others) c.columns.emplace_back(name_of(mark));
+  c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
+  const auto index = [](const std::vector<std::string>& list, std::string_view word) {
+    return static_cast<std::size_t>(std::find(list.begin(), list.end(), word) - list.begin());
+  };
+  for (const Answered& a : answers) {
+    const Arm arm = arm_of(a.order);
+    const bool exact = arm == Arm::effect || arm == Arm::correct || arm == Arm::outside;
+    if (!a.reached || !exact) continue;
+    if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
+    const std::size_t row =
+        index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());
+    const Mark mark = mark_of(a);
+    if (std::find(others.begin(), others.end(), mark) != others.end()) {
+      ++c.counts[row][index(c.columns, name_of(mark))];
+      continue;
+    }
+    for (const std::string& name : a.named) {
+      const std::size_t column = index(c.columns, name);
+      if (column < c.columns.size()) ++c.counts[row][column];
+    }
+  }
+  return c;
+}
+
 }  // namespace
 
 const std::vector<Bar>& study_bars() {
@@ -367,43 +404,6 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   tally.unreached = unreached_of(answers);
   tally.methods = methods_of(answers);
   return tally;
-}
-
-Confusion confusion_of(const std::vector<Answered>& answers) {
-  Confusion c;
-  std::vector<std::string> ids;
-  for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.kind == EffectKind::careless) continue;
-    c.rows.emplace_back(effect.id);
-    if (effect.kind != EffectKind::outside) ids.emplace_back(effect.id);
-  }
-  c.rows.emplace_back("nothing");
-  c.columns = ids;
-  const std::vector<Mark> others = {Mark::inside,  Mark::outside,   Mark::unexplained,
-                                    Mark::nothing, Mark::resembled, Mark::failed};
-  for (const Mark mark : others) c.columns.emplace_back(name_of(mark));
-  c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
-  const auto index = [](const std::vector<std::string>& list, std::string_view word) {
-    return static_cast<std::size_t>(std::find(list.begin(), list.end(), word) - list.begin());
-  };
-  for (const Answered& a : answers) {
-    const Arm arm = arm_of(a.order);
-    const bool exact = arm == Arm::effect || arm == Arm::correct || arm == Arm::outside;
-    if (!a.reached || !exact) continue;
-    if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
-    const std::size_t row =
-        index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());
-    const Mark mark = mark_of(a);
-    if (std::find(others.begin(), others.end(), mark) != others.end()) {
-      ++c.counts[row][index(c.columns, name_of(mark))];
-      continue;
-    }
-    for (const std::string& name : a.named) {
-      const std::size_t column = index(c.columns, name);
-      if (column < c.columns.size()) ++c.counts[row][column];
-    }
-  }
-  return c;
 }
 
 }  // namespace recoil::hidden

@@ -23,7 +23,6 @@ struct Confusion {
   std::vector<std::vector<int>> counts;
   RECOIL_FIELDS(rows, columns, counts)
 };
-Confusion confusion_of(const std::vector<Answered>& answers);
 
 /// So many of so many.
 struct Count {

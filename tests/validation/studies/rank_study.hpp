@@ -44,12 +44,6 @@ struct RankStudy {
   RECOIL_FIELDS(sets, seed, rows)
 };
 
-/// The rank of every parameter that moves in data set `index` of an arm, in the order of
-/// `rank_parameters`; empty where the posterior did not settle. The parameters are drawn from the
-/// prior, the data by the simulator that shares no code with the fitter.
-std::vector<double> ranks_of(RankArm arm, std::uint64_t index, std::uint64_t seed, int threads);
-std::vector<std::string> rank_parameters(RankArm arm);
-
 /// Simulation-based calibration (Talts, Betancourt, Simpson, Vehtari & Gelman 2018,
 /// arXiv:1804.06788): where data come from the prior and the model, the ranks are uniform.
 /// @param kept a folder for what is finished; empty: nowhere

@@ -13,7 +13,9 @@ namespace recoil {
 struct Study {
   std::string name;
   std::string command;  ///< words of recoil_study
-  std::string result;   ///< the JSON that it leaves, from the project's folder
+
+  /// The JSON that it leaves, from the project's folder.
+  std::string result() const { return "reports/" + name + ".json"; }
 };
 
 const std::vector<Study>& all_studies();

@@ -263,6 +263,22 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   return square / (velocity * velocity);
 }
 
+/// exp of what the oddity adds to ln e at this velocity.
+double oddity_factor(const Effects& effects, double velocity) {
+  const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
+  switch (effects.oddity) {
+    case Oddity::none:
+      return 1.0;
+    case Oddity::dip:  // as of a resonance
+      return std::exp(-effects.oddity_size * std::exp(-0.5 * x * x));
+    case Oddity::kink:  // e falls no more, but rises, from here on
+      return std::exp(effects.oddity_size * std::max(x, 0.0));
+    case Oddity::wave:
+      return std::exp(effects.oddity_size * (std::sin(2.0 * pi * x) - 1.0));
+  }
+  return 1.0;
+}
+
 }  // namespace
 
 double Bend::factor(double velocity, double diameter) const {
@@ -311,21 +327,6 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
 
 double size_of(double spread, double z) {
   return std::exp(spread * z) / std::exp(0.5 * spread * spread);
-}
-
-double oddity_factor(const Effects& effects, double velocity) {
-  const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
-  switch (effects.oddity) {
-    case Oddity::none:
-      return 1.0;
-    case Oddity::dip:  // as of a resonance
-      return std::exp(-effects.oddity_size * std::exp(-0.5 * x * x));
-    case Oddity::kink:  // e falls no more, but rises, from here on
-      return std::exp(effects.oddity_size * std::max(x, 0.0));
-    case Oddity::wave:
-      return std::exp(effects.oddity_size * (std::sin(2.0 * pi * x) - 1.0));
-  }
-  return 1.0;
 }
 
 double Scatter::of(double e) const {

@@ -120,7 +120,4 @@ double observed_mean(const Base& base, const Effects& effects, const Scatter& sc
                      double velocity, double diameter, std::size_t series, int events,
                      RandomStream& random);
 
-/// exp of what the oddity adds to ln e at this velocity.
-double oddity_factor(const Effects& effects, double velocity);
-
 }  // namespace recoil::hidden
