@@ -51,11 +51,6 @@ double TrueMixture::draw(RandomStream& random) const {
   return restitution_[static_cast<std::size_t>(at - below_.begin())];
 }
 
-CountedImpacts count_impacts(const TrueCurve& curve, int events,
-                             const std::function<double()>& velocity) {
-  return count_impacts(events, [&] { return curve(velocity()); });
-}
-
 CountedImpacts count_impacts(int events, const std::function<double()>& restitution) {
   CountedImpacts found;
   double sum = 0.0;

@@ -57,8 +57,4 @@ struct CountedImpacts {
 /// Summarises `events` impacts. @param restitution draws e of one impact; 0 if captured
 CountedImpacts count_impacts(int events, const std::function<double()>& restitution);
 
-/// Summarises `events` impacts on `curve`. @param velocity draws V of one impact [m/s]
-CountedImpacts count_impacts(const TrueCurve& curve, int events,
-                             const std::function<double()>& velocity);
-
 }  // namespace recoil

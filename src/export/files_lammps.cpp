@@ -1,4 +1,3 @@
-
 #include <cmath>
 
 #include "export/export_job.hpp"
@@ -122,36 +121,21 @@ std::string force_text(const ExportJob& job) {
         {{"E", shortest(1.5 * f.stiffness * pascal)},
          {"ETA", shortest(job.stock->value / (f.mass() * std::sqrt(f.radius)) / (us * um))}});
   }
-  const std::string acts = f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz";
-  const std::string radius = shortest(f.radius * um);
-  const std::string stiffness = shortest(f.stiffness * pascal);
-  const std::string c_h = shortest(f.hertz_damping);
-  const std::string c_a = shortest(f.adhesion_damping);
-  if (f.adhesion == AdhesionLaw::ring) {
-    return filled(lammps_ring, {{"R", radius},
-                                {"K", stiffness},
-                                {"F0", shortest(f.adhesion_force * newton_per_meter)},
-                                {"CH", c_h},
-                                {"CA", c_a},
-                                {"DASHPOT", shortest(f.dashpot * dashpot)},
-                                {"ACTS", acts}});
-  }
-  if (f.adhesion == AdhesionLaw::dmt) {
-    return filled(lammps_dmt, {{"R", radius},
-                               {"K", stiffness},
-                               {"W", shortest(f.adhesion_energy * newton_per_meter)},
-                               {"CH", c_h},
-                               {"CA", c_a},
-                               {"ACTS", acts}});
-  }
+  const bool jkr = f.adhesion == AdhesionLaw::jkr;
+  const char* const law = f.adhesion == AdhesionLaw::ring  ? lammps_ring
+                          : f.adhesion == AdhesionLaw::dmt ? lammps_dmt
+                                                           : lammps_jkr;
   const double unit = f.stiffness * std::pow(f.radius * f.jkr_length(), 1.5) / f.radius;
-  return filled(lammps_jkr, {{"R", radius},
-                             {"W", shortest(f.adhesion_energy)},
-                             {"U", shortest(f.jkr_length() * um)},
-                             {"P", shortest(unit * newton)},
-                             {"CH", c_h},
-                             {"CA", c_a},
-                             {"ACTS", acts}});
+  return filled(law, {{"R", shortest(f.radius * um)},
+                      {"K", shortest(f.stiffness * pascal)},
+                      {"F0", shortest(f.adhesion_force * newton_per_meter)},
+                      {"W", shortest(f.adhesion_energy * (jkr ? 1.0 : newton_per_meter))},
+                      {"CH", shortest(f.hertz_damping)},
+                      {"CA", shortest(f.adhesion_damping)},
+                      {"DASHPOT", shortest(f.dashpot * dashpot)},
+                      {"U", shortest(f.jkr_length() * um)},
+                      {"P", shortest(unit * newton)},
+                      {"ACTS", f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz"}});
 }
 
 }  // namespace

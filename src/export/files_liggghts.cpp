@@ -1,4 +1,3 @@
-
 #include "export/export_job.hpp"
 #include "export/files.hpp"
 

@@ -6,44 +6,28 @@
 #include <cmath>
 #include <set>
 
+#include "core/numerics.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
-#include "estimate/predictor.hpp"
+#include "predict/polydisperse.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr int tabulated_velocities = 60;
+constexpr std::size_t tabulated_velocities = 60;
 constexpr std::size_t fewest_for_a_band = 19;
 
 std::vector<double> tabulated(double slowest, double fastest, double capture) {
-  std::set<double> grid;
-  for (int i = 0; i < tabulated_velocities; ++i) {
-    grid.insert(slowest * std::pow(fastest / slowest, i / (tabulated_velocities - 1.0)));
-  }
+  const std::vector<double> spaced = log_spaced(slowest, fastest, tabulated_velocities);
+  std::set<double> grid(spaced.begin(), spaced.end());
   // e rises like sqrt(V - V*) here
   for (const double above : {0.0, 0.001, 0.005, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15}) {
     const double v = capture * (1.0 + above);
     if (v > slowest && v < fastest) grid.insert(v);
   }
   return {grid.begin(), grid.end()};
-}
-
-/// e at every velocity; NaN if there is no result.
-std::vector<double> restitutions(const ImpactModel& model, std::span<const double> theta,
-                                 std::size_t dataset, const TabulatedSize& size) {
-  std::vector<PointConditions> points;
-  for (const double v : size.velocity) points.push_back({dataset, size.diameter, v});
-  PointPredictor predictor(model, std::move(points), Effects::of_nature);
-  predictor.evaluate(theta, false);
-  std::vector<double> e;
-  for (std::size_t k = 0; k < size.velocity.size(); ++k) {
-    const ImpactResult& at = predictor.at(k);
-    e.push_back(at.usable() ? std::sqrt(std::max(at.restitution_squared, 0.0)) : std::nan(""));
-  }
-  return e;
 }
 
 void set_band(BandedNumber& number, std::vector<double> values, double level) {
@@ -62,7 +46,7 @@ void add_bands(const ImpactModel& model, const TableRequest& request, TabulatedS
   std::vector<double> captures(count, std::nan(""));
   parallel_over(count, request.threads, [&](std::size_t i) {
     const std::vector<double> theta = of_nature(model, request.replicates[i]);
-    e[i] = restitutions(model, theta, request.dataset, size);
+    e[i] = true_restitutions(model, theta, request.dataset, size.diameter, size.velocity);
     if (!size.captures) return;
     const CaptureVelocity found =
         capture_velocity(model, theta, request.dataset, size.diameter, size.capture_velocity.value);

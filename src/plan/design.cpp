@@ -35,11 +35,11 @@ Eigen::VectorXd worth_of_points(const DesignProblem& problem, const Eigen::Matri
   return (problem.rows * solved).rowwise().squaredNorm();
 }
 
-std::vector<double> as_numbers(const std::vector<int>& counts) {
+}  // namespace
+
+std::vector<double> numbers_of(const std::vector<int>& counts) {
   return {counts.begin(), counts.end()};
 }
-
-}  // namespace
 
 Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<double>& counts) {
   const Eigen::Map<const Eigen::VectorXd> n(counts.data(), problem.rows.rows());
@@ -117,7 +117,7 @@ std::vector<int> whole_points(const std::vector<double>& shares, int points) {
 }
 
 std::vector<int> after_exchanges(const DesignProblem& problem, std::vector<int> counts) {
-  Eigen::MatrixXd information = information_of(problem, as_numbers(counts));
+  Eigen::MatrixXd information = information_of(problem, numbers_of(counts));
   double now = sum_of_variances(information, problem.asked);
   const auto count = static_cast<Eigen::Index>(counts.size());
   const auto square = [&](Eigen::Index i) -> Eigen::MatrixXd {
@@ -142,7 +142,7 @@ std::vector<int> after_exchanges(const DesignProblem& problem, std::vector<int> 
     if (from < 0 || (std::isfinite(now) && !(best < (1.0 - worth_exchanging) * now))) break;
     --counts[static_cast<std::size_t>(from)];
     ++counts[static_cast<std::size_t>(to)];
-    information = information_of(problem, as_numbers(counts));
+    information = information_of(problem, numbers_of(counts));
     now = best;
   }
   return counts;

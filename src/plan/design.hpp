@@ -15,6 +15,9 @@ struct DesignProblem {
   Eigen::MatrixXd asked;  ///< the quantities c, one column each [p x asked]
 };
 
+/// Whole counts, for the functions below.
+std::vector<double> numbers_of(const std::vector<int>& counts);
+
 /// M for `counts` n_i, which need not be integers [p x p].
 Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<double>& counts);
 

@@ -113,10 +113,6 @@ struct PlacedPoints {
   std::vector<int> counts;
 };
 
-std::vector<double> numbers_of(const std::vector<int>& counts) {
-  return {counts.begin(), counts.end()};
-}
-
 void add_settings(const PlacedPoints& placed, std::vector<PlannedSetting>& settings) {
   for (std::size_t i = 0; i < placed.counts.size(); ++i) {
     if (placed.counts[i] == 0) continue;

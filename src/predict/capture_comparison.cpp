@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/numerics.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -120,23 +121,17 @@ CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
 /// Removes the diameters at which the fit has no capture velocity, or no band although others have
 /// one.
 void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
-  std::vector<double> diameters;
-  CaptureCurve kept = fit;
-  kept.velocity.clear();
-  kept.lower.clear();
-  kept.upper.clear();
-  for (std::size_t k = 0; k < comparison.diameter.size(); ++k) {
+  std::vector<bool> answered;
+  for (std::size_t k = 0; k < fit.velocity.size(); ++k) {
     const bool banded = fit.lower.empty() || std::isfinite(fit.lower[k] + fit.upper[k]);
-    if (!std::isfinite(fit.velocity[k]) || !banded) continue;
-    diameters.push_back(comparison.diameter[k]);
-    kept.velocity.push_back(fit.velocity[k]);
-    if (fit.lower.empty()) continue;
-    kept.lower.push_back(fit.lower[k]);
-    kept.upper.push_back(fit.upper[k]);
+    answered.push_back(banded && std::isfinite(fit.velocity[k]));
   }
-  comparison.unanswered = comparison.diameter.size() - diameters.size();
-  comparison.diameter = std::move(diameters);
-  fit = std::move(kept);
+  comparison.unanswered =
+      static_cast<std::size_t>(std::count(answered.begin(), answered.end(), false));
+  for (auto* values : {&comparison.diameter, &fit.velocity, &fit.lower, &fit.upper}) {
+    auto next = answered.begin();
+    std::erase_if(*values, [&next](double) { return !*next++; });
+  }
 }
 
 /// The largest e of the fitted curve at the reference diameter up to the fastest point [1].
@@ -217,8 +212,8 @@ std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
     }
     if (!(fastest > 0.0)) continue;
     const auto [smallest, largest] = std::minmax_element(sizes.begin(), sizes.end());
-    comparison.diameter =
-        log_spaced(*smallest / options.widened, *largest * options.widened, options.diameters);
+    comparison.diameter = log_spaced(*smallest / options.widened, *largest * options.widened,
+                                     static_cast<std::size_t>(options.diameters));
     CaptureCurve fit = fitted_curve(fitted, d, comparison.diameter, bootstrap, options);
     keep_answered(comparison, fit);
     comparison.curves.push_back(std::move(fit));

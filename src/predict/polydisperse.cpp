@@ -49,9 +49,7 @@ class MixtureFlight {
                                                  const std::vector<double>& velocities) {
     std::vector<PointConditions> points;
     for (const double v : velocities) {
-      for (const SizeBin& bin : bins) {
-        points.push_back({dataset, bin.diameter, v, PointConditions::no_series});
-      }
+      for (const SizeBin& bin : bins) points.push_back({dataset, bin.diameter, v});
     }
     return points;
   }
@@ -116,7 +114,7 @@ std::vector<double> velocity_grid(const std::vector<SizeCurve>& sizes, double sl
   }
   last *= 1.1;
   first = std::max(first, 1e-3 * last);
-  return log_spaced(first, last, count);
+  return log_spaced(first, last, static_cast<std::size_t>(count));
 }
 
 }  // namespace
@@ -140,26 +138,15 @@ std::vector<double> true_restitutions(const ImpactModel& model, std::span<const 
                                       std::size_t dataset, double diameter,
                                       const std::vector<double>& velocities) {
   std::vector<PointConditions> points;
-  for (const double v : velocities) {
-    points.push_back({dataset, diameter, v, PointConditions::no_series});
-  }
+  for (const double v : velocities) points.push_back({dataset, diameter, v});
   PointPredictor predictor(model, std::move(points), Effects::of_nature);
   predictor.evaluate(theta, false);
   std::vector<double> e;
   for (std::size_t i = 0; i < predictor.size(); ++i) {
-    const ImpactResult& impact = predictor.at(i);
-    e.push_back(impact.usable() ? std::sqrt(std::max(0.0, impact.restitution_squared))
-                                : std::nan(""));
+    const ImpactResult& at = predictor.at(i);
+    e.push_back(at.usable() ? std::sqrt(std::max(0.0, at.restitution_squared)) : std::nan(""));
   }
   return e;
-}
-
-std::vector<double> log_spaced(double first, double last, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) {
-    values.push_back(first * std::pow(last / first, i / (count - 1.0)));
-  }
-  return values;
 }
 
 PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,

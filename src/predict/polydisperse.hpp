@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/numerics.hpp"  // log_spaced
 #include "data/dataset.hpp"
 #include "data/measured_sizes.hpp"
 #include "estimate/fit.hpp"
@@ -43,9 +44,6 @@ BandedValue banded(double value, std::vector<double> replicates, double level);
 std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
                                       std::size_t dataset, double diameter,
                                       const std::vector<double>& velocities);
-
-/// `count` values from `first` to `last`, evenly spaced in their logarithm.
-std::vector<double> log_spaced(double first, double last, int count);
 
 /// A size of a mixture with its own curve; d10 is the mean diameter.
 enum class NamedSize { smallest, d10, largest };

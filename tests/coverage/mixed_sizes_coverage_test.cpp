@@ -37,23 +37,23 @@ INSTANTIATE_TEST_SUITE_P(Shipped, MixedSizesFit,
 
 TEST_P(MixedSizesFit, ContainsTheTruthOfItsRecipe) {
   const Shipped own = shipped(GetParam());
-  const auto truth = true_parameters(load_recipe(own.datasets[0].folder));
+  const Truth truth = load_recipe(own.datasets[0].folder).truth;
   ASSERT_TRUE(own.datasets[0].mixed_sizes);
   const FitResult fitted = fit(make_model(own.spec, own.datasets), gather(own.datasets, own.spec));
   ASSERT_TRUE(fitted.usable) << fitted.failure;
-  EXPECT_TRUE(holds(fitted, fitted.model.slot_C_H[0], truth.at("C_H"))) << fitted.theta[0];
-  EXPECT_TRUE(holds(fitted, fitted.model.slot_C_A[0], truth.at("C_A"))) << fitted.theta[1];
+  EXPECT_TRUE(holds(fitted, fitted.model.slot_C_H[0], truth.C_H)) << fitted.theta[0];
+  EXPECT_TRUE(holds(fitted, fitted.model.slot_C_A[0], truth.C_A)) << fitted.theta[1];
   EXPECT_GT(fitted.p_value, 0.05);
 }
 
 TEST(MixedSizes, TakenAsOneSizeTheFitMissesTheTruth) {
   Shipped own = shipped("li1999-sst65-silicon");
   own.spec.mixed_sizes = false;
-  const auto truth = true_parameters(load_recipe(own.datasets[0].folder));
+  const Truth truth = load_recipe(own.datasets[0].folder).truth;
   const FitResult fitted = fit(make_model(own.spec, own.datasets), gather(own.datasets, own.spec));
   ASSERT_TRUE(fitted.usable) << fitted.failure;
-  EXPECT_FALSE(holds(fitted, fitted.model.slot_C_H[0], truth.at("C_H")) &&
-               holds(fitted, fitted.model.slot_C_A[0], truth.at("C_A")));
+  EXPECT_FALSE(holds(fitted, fitted.model.slot_C_H[0], truth.C_H) &&
+               holds(fitted, fitted.model.slot_C_A[0], truth.C_A));
 }
 
 TEST(MixedSizes, SimulatedTruthsLieInTheIntervals) {

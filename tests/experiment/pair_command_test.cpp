@@ -9,7 +9,6 @@
 #include "core/files.hpp"
 #include "data/measured_sizes.hpp"
 #include "support/workplace.hpp"
-#include "validation/recipe/passages.hpp"
 #include "validation/recipe/recipe.hpp"
 #include "validation/recipe/reconstruction.hpp"
 #include "validation/synthetic/event_stream.hpp"

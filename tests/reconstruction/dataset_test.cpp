@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
-#include "validation/recipe/plan.hpp"
+#include "validation/recipe/recipe.hpp"
 #include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
@@ -19,7 +19,7 @@ using support::text_of;
 /// The points as the recipe says that they are made: from events where it has a table [pairing].
 PairedPoints made_by(const Recipe& recipe) {
   if (recipe.pairing) return pair_passages(recipe);
-  return {generate_points(recipe, recipe.seed), draw_points(recipe, recipe.seed)};
+  return {to_csv(recipe, draw_points(recipe, recipe.seed)), draw_points(recipe, recipe.seed)};
 }
 
 class Committed : public ::testing::TestWithParam<std::string> {};
@@ -145,12 +145,14 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
 }
 
 TEST(Reconstruction, TrueParametersAreThoseOfTheRingAdhesionModel) {
-  const auto dahneke = true_parameters(load_recipe(dataset_folder("dahneke1975-quartz")));
-  EXPECT_EQ(dahneke.at("C_H"), 6e-4);
-  EXPECT_EQ(dahneke.at("C_A"), 3.8e-3);
-  EXPECT_NEAR(dahneke.at("f0"), 5.745 * std::cbrt(0.635 / 0.64), 0.03);  // Table 1 at r = 0.64 um
+  const Recipe dahneke = load_recipe(dataset_folder("dahneke1975-quartz"));
+  EXPECT_TRUE(has_model_of_fit(dahneke));
+  EXPECT_EQ(dahneke.truth.C_H, 6e-4);
+  EXPECT_EQ(dahneke.truth.C_A, 3.8e-3);
+  // Table 1 at r = 0.64 um.
+  EXPECT_NEAR(dahneke.truth.adhesion_force, 5.745 * std::cbrt(0.635 / 0.64), 0.03);
   // A C_A that varies with the size is not the model of a fit.
-  EXPECT_TRUE(true_parameters(load_recipe(dataset_folder("wall1990-mica"))).empty());
+  EXPECT_FALSE(has_model_of_fit(load_recipe(dataset_folder("wall1990-mica"))));
 }
 
 TEST(Reconstruction, RegenerateWantsTheSameDesign) {

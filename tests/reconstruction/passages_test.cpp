@@ -1,5 +1,5 @@
 // The events behind a reconstruction: what is in them, and that the pairing finds it.
-#include "validation/recipe/passages.hpp"
+#include "experiment/passages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
-#include "experiment/passages.hpp"
+#include "validation/recipe/recipe.hpp"
 
 namespace {
 

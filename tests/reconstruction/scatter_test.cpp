@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "recipe_folder.hpp"
-#include "validation/recipe/plan.hpp"
+#include "validation/recipe/recipe.hpp"
 #include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 
 /// By numpy: with K = exp(-|x - x'|^2 / 2), x = (ln V, ln d), of the grid s = 0.1 * 10^(k / 4) the
 /// smallest r' C^-1 r + ln det C, C = I + s^2 K, is 11.56 at s = 1.778 (without f: 31.74), and the

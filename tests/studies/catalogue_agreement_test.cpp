@@ -10,14 +10,13 @@
 
 #include "core/files.hpp"
 #include "mechanism/mechanism.hpp"
-#include "validation/studies/program_run.hpp"
+#include "support/command.hpp"
 #include "validation/synthetic/case.hpp"
-#include "validation/synthetic/case_files.hpp"
 #include "validation/synthetic/hidden_effect.hpp"
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 namespace fs = std::filesystem;
 
 struct Pairing {
@@ -56,10 +55,11 @@ TEST_P(Agreement, TheCatalogueTakesTheEffectUp) {
   const std::string parameters = "[parameters]\n";
   text.insert(text.find(parameters) + parameters.size(), p.variant);
   recoil::write_whole_file(fit, text);
-  const ProgramRun run =
-      run_program({RECOIL_BINARY, "fit", fit.string(), "--replicates", "0", "--threads", "1",
-                   "--out", (scratch.path() / "out").string()});
-  ASSERT_EQ(run.status, 0) << run.complaint;
+  const support::Outcome run =
+      support::run_recoil({"fit", fit.string(), "--replicates", "0", "--threads", "1", "--out",
+                           (scratch.path() / "out").string()},
+                          scratch.path());
+  ASSERT_EQ(run.status, 0) << run.err;
   std::ifstream in(scratch.path() / "out" / "fit.json");
   const nlohmann::json result = nlohmann::json::parse(in);
   const double left = std::sqrt(result["goodness"]["chi2"].get<double>());

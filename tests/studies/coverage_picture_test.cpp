@@ -1,6 +1,4 @@
 // The picture of the coverage study: colours against hand-worked values, cells against the results.
-#include "validation/studies/coverage_picture.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "plot/draw.hpp"
+#include "validation/studies/coverage_page.hpp"
 
 namespace recoil {
 namespace {

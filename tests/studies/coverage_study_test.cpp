@@ -78,7 +78,7 @@ TEST(CoverageSummary, HasTheDesignsOfTheGridInItsOrder) {
   study.datasets = 400;
   study.rows = {row("n20 10 % stated f0-free", "f0", 400, 384, 384),
                 row("n20 equal estimated f0-fixed captures", "C_H", 400, 385, 385)};
-  const Document page = coverage_summary({study}, "coverage");
+  const Document page = coverage_summary({study});
   const Section* grid = support::section_of(page, "grid");
   ASSERT_NE(grid, nullptr);
   ASSERT_EQ(support::tables_of(*grid).size(), 1U);

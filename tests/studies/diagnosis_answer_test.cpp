@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "core/files.hpp"
-#include "validation/studies/program_run.hpp"
+#include "validation/synthetic/case.hpp"
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 namespace fs = std::filesystem;
 
 /// Diagnoses nothing.

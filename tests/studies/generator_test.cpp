@@ -8,13 +8,11 @@
 #include <sstream>
 
 #include "validation/studies/diagnosis_answer.hpp"
-#include "validation/studies/program_run.hpp"
-#include "validation/synthetic/case_files.hpp"
-#include "validation/synthetic/further_impacts.hpp"
+#include "validation/synthetic/case.hpp"
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 
 Answered answer(const std::string& design, const std::vector<std::string>& effects, double strength,
                 const std::string& verdict, const std::vector<std::string>& named,

@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 
 struct Question {
   CaseOrder order;

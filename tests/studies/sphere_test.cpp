@@ -7,12 +7,11 @@
 #include <numbers>
 
 #include "validation/synthetic/effects.hpp"
-#include "validation/synthetic/other_laws.hpp"
 #include "validation/truth/elastoplastic_truth.hpp"
 
 namespace {
 
-using namespace hidden;
+using namespace recoil::hidden;
 using std::numbers::pi;
 
 /// An ammonium fluorescein sphere of 4.9 um.

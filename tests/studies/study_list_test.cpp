@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "validation/studies/study_pages.hpp"
 
 namespace recoil {
 namespace {
@@ -94,13 +93,13 @@ TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {
 
 TEST_F(Tree, AStudyIsCurrentOnlyWithTheKeyOfTheSourcesThatAreThere) {
   write("src/core/a.cpp", "1");
-  const Study study = {"a", "pairing", "reports/a.json"};
+  const Study study = {"a", "pairing"};
   EXPECT_EQ(state_of(root_, study), StudyState::missing);
-  write(study.result, R"({"key": "0123456789abcdef"})");
+  write(study.result(), R"({"key": "0123456789abcdef"})");
   EXPECT_EQ(state_of(root_, study), StudyState::stale);
-  write(study.result, "no json");
+  write(study.result(), "no json");
   EXPECT_EQ(state_of(root_, study), StudyState::stale);
-  write(study.result, R"({"key": ")" + study_key(root_, study.command) + R"("})");
+  write(study.result(), R"({"key": ")" + study_key(root_, study.command) + R"("})");
   EXPECT_EQ(state_of(root_, study), StudyState::current);
   write("src/core/a.cpp", "2");
   EXPECT_EQ(state_of(root_, study), StudyState::stale);
@@ -110,7 +109,7 @@ TEST(Studies, AreFoundByTheirNames) {
   std::set<std::string> results;
   for (const Study& study : all_studies()) {
     EXPECT_EQ(study_named(study.name).command, study.command);
-    EXPECT_TRUE(results.insert(study.result).second) << study.result;
+    EXPECT_TRUE(results.insert(study.result()).second) << study.result();
   }
   EXPECT_THROW(study_named("coverage-grid-n12-stated"), InputError);
 }
@@ -123,7 +122,7 @@ TEST_F(Tree, CommittedPagesAreThoseOfTheCommittedResults) {
     if (file.extension() != ".json") continue;
     const bool known = std::any_of(
         all_studies().begin(), all_studies().end(),
-        [&](const Study& study) { return fs::path(study.result).filename() == file.filename(); });
+        [&](const Study& study) { return fs::path(study.result()).filename() == file.filename(); });
     if (!known) continue;
     fs::copy_file(file, root_ / file.filename());
     render_study(root_ / file.filename());

@@ -1,5 +1,3 @@
-#include "validation/recipe/passages.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "validation/recipe/plan.hpp"
+#include "validation/recipe/recipe.hpp"
 #include "validation/truth/falling_sphere.hpp"
 
 namespace recoil {

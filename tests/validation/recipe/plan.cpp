@@ -1,11 +1,10 @@
-#include "validation/recipe/plan.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "validation/recipe/recipe.hpp"
 
 namespace recoil {
 namespace {

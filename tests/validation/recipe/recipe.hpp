@@ -137,4 +137,58 @@ struct Recipe {
 /// @throws InputError with file, line and column.
 Recipe load_recipe(const std::filesystem::path& folder, const std::string& name = recipe_name);
 
+/// The noiseless truth of every point of the recipe's design, in the order of points.csv.
+/// For mixed sizes, e is the mean over the impacts that are seen to rebound, weighted by the size
+/// distribution, and its standard deviation holds the scatter of the sizes as well as the noise.
+/// @throws InputError when fewer than one impact in a hundred would be seen at some point.
+std::vector<PlannedPoint> make_plan(const Recipe& recipe);
+
+/// One point as it stands in points.csv: rounded.
+struct GeneratedPoint {
+  std::size_t series = 0;
+  double diameter = 0.0;        ///< [m]
+  double velocity = 0.0;        ///< [m/s]
+  double restitution = 0.0;     ///< mean of the events that rebounded [1]
+  double restitution_sd = 0.0;  ///< standard error that the recipe implies [1]
+  int events = 0;
+};
+
+/// Draws the events of every point from the stream (seed, reconstruction, point number), averages
+/// and rounds.
+std::vector<GeneratedPoint> draw_points(const Recipe& recipe, std::uint64_t seed);
+
+/// points.csv, diameters in um, velocities in m/s.
+std::string to_csv(const Recipe& recipe, const std::vector<GeneratedPoint>& points);
+
+/// One fact, evaluated.
+struct FactCheck {
+  std::string id;
+  std::string statement;
+  std::string source;
+  bool holds = false;
+  std::string found;  ///< the number or range that was found, with its limits
+};
+
+/// @throws InputError at the fact when its id is not in the catalogue, or its limits are not those
+/// that the check takes.
+void require_known_fact(const FactSpec& fact);
+
+/// Evaluates every fact of the recipe on `points` and on the noiseless truth; loads the siblings.
+std::vector<FactCheck> check_facts(const Recipe& recipe, const std::vector<GeneratedPoint>& points);
+
+/// What a phase Doppler instrument would have recorded of the recipe's experiment: one row per
+/// passage through the measuring plane, `series,time,velocity,tangential_velocity,diameter` in s,
+/// m/s and um, in the order of time; for `recoil pair`.
+///
+/// One drop height after the other, so many spheres each that the recipe's number of events is
+/// expected to be seen with both passages. A sphere of random size falls freely, is captured or
+/// rebounds with the truth's e at its own size and velocity, with the recipe's scatter of one
+/// event; leaves rolling, with 5/7 of its tangential velocity, so that tan(angle out) = (5/7)
+/// tan(angle in) / e; passes the plane again where it is fast enough; may come back through the
+/// volume for a second impact, and so on. Sphere i of height k draws from the stream (seed,
+/// reconstruction, 10^6 (k + 1000) + i): the points' own streams have smaller numbers.
+/// @param times as many spheres as the recipe asks for.
+/// @throws InputError when the recipe has no table [passages] or no [sizes].
+std::string draw_passages(const Recipe& recipe, std::uint64_t seed, int times = 1);
+
 }  // namespace recoil

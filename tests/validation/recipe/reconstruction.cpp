@@ -8,8 +8,7 @@
 
 #include "core/files.hpp"
 #include "experiment/pairing_files.hpp"
-#include "validation/recipe/passages.hpp"
-#include "validation/recipe/plan.hpp"
+#include "validation/recipe/recipe.hpp"
 
 namespace recoil {
 namespace {
@@ -79,32 +78,21 @@ std::string first_difference(const std::string& there, const std::string& made) 
 
 }  // namespace
 
-PassageTable recipe_passages(const Recipe& recipe, int times) {
-  const PassageFormat format = {
-      {{"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}},
-      {},
-      false};
-  return parse_passages(draw_passages(recipe, recipe.seed, times), "events.csv", "", format);
-}
-
-PairingOptions recipe_pairing(const Recipe& recipe) {
-  PairingOptions options;
-  options.height = recipe.pairing.value().height;
-  options.angle = recipe.pairing.value().angle;
-  return options;
-}
-
-AverageOptions recipe_averaging(const Recipe& recipe) {
-  AverageOptions options;
-  options.per_bin = static_cast<std::size_t>(recipe.pairing.value().per_bin);
-  options.mean_diameter = true;
-  return options;
-}
-
 PairedPoints pair_passages(const Recipe& recipe) {
-  const PassageTable table = recipe_passages(recipe);
-  const PairingResult pairs = pair_passages(table.passages, recipe_pairing(recipe));
-  const Averages averages = average(table.passages, table.series, pairs, recipe_averaging(recipe));
+  PassageFormat format;
+  format.units = {
+      {"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}};
+  const PassageTable table =
+      parse_passages(draw_passages(recipe, recipe.seed), "events.csv", "", format);
+  const PairingDesign& design = recipe.pairing.value();
+  PairingOptions options;
+  options.height = design.height;
+  options.angle = design.angle;
+  AverageOptions by;
+  by.per_bin = static_cast<std::size_t>(design.per_bin);
+  by.mean_diameter = true;
+  const Averages averages =
+      average(table.passages, table.series, pair_passages(table.passages, options), by);
   PairedPoints made;
   made.csv = points_csv(averages);
   for (const PointMean& point : averages.points) {
@@ -112,10 +100,6 @@ PairedPoints pair_passages(const Recipe& recipe) {
                            point.restitution_sd, static_cast<int>(point.rebounds)});
   }
   return made;
-}
-
-std::string generate_points(const Recipe& recipe, std::uint64_t seed) {
-  return to_csv(recipe, draw_points(recipe, seed));
 }
 
 Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed) {
@@ -134,13 +118,8 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
   return fresh;
 }
 
-std::map<std::string, double> true_parameters(const Recipe& recipe) {
-  const Truth& truth = recipe.truth;
-  if (truth.law != TrueAdhesion::ring || truth.C_A_exponent != 0.0) return {};
-  return {{"C_H", truth.C_H},
-          {"C_A", truth.C_A},
-          {"f0", truth.adhesion_force},
-          {"reference_diameter", truth.reference_diameter}};
+bool has_model_of_fit(const Recipe& recipe) {
+  return recipe.truth.law == TrueAdhesion::ring && recipe.truth.C_A_exponent == 0.0;
 }
 
 bool ReconstructionResult::good() const {

@@ -2,52 +2,35 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "data/dataset.hpp"
-#include "experiment/averages.hpp"
-#include "experiment/pairing.hpp"
-#include "experiment/passages.hpp"
-#include "validation/recipe/facts.hpp"
 #include "validation/recipe/recipe.hpp"
 
 /// The points of a recipe. The only code of this folder that uses what is tried on a truth: points
 /// may come by way of simulated passages and the tool's own pairing.
 namespace recoil {
 
-/// What `./run study reconstruct --passages` writes for `recipe`, read as `recoil pair` reads it.
-/// @param times with so many times as many spheres.
-PassageTable recipe_passages(const Recipe& recipe, int times = 1);
-
-/// The options of `recoil pair` that the recipe's table [pairing] stands for.
-/// @pre recipe.pairing
-PairingOptions recipe_pairing(const Recipe& recipe);
-AverageOptions recipe_averaging(const Recipe& recipe);
-
+/// The points of a recipe with a table [pairing].
 struct PairedPoints {
   std::string csv;                     ///< points.csv
   std::vector<GeneratedPoint> points;  ///< the same, for the facts
 };
 
 /// The same bytes as `./run study reconstruct DIR --passages FILE` followed by `recoil pair FILE`
-/// with the options above.
+/// with the options of that table.
 /// @pre recipe.pairing
 PairedPoints pair_passages(const Recipe& recipe);
-
-/// points.csv of the recipe with the random numbers of `seed`; the committed file is the one of
-/// `recipe.seed`.
-std::string generate_points(const Recipe& recipe, std::uint64_t seed);
 
 /// The same design and system with new noise, for coverage studies. Cheap (about 0.1 ms): the
 /// noiseless truth is already in the recipe.
 /// @throws InputError when `original` does not have the design of the recipe.
 Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed);
 
-/// C_H [s/m], C_A [s/m] and f0 [N/m] at `reference_diameter` [m] of a truth made by the
-/// ring-adhesion model, by these names; empty when the truth is another model.
-std::map<std::string, double> true_parameters(const Recipe& recipe);
+/// Is the truth made by the ring-adhesion model, with one C_A for all sizes? Then its C_H, C_A and
+/// f0 are those of a fit.
+bool has_model_of_fit(const Recipe& recipe);
 
 /// What `./run study reconstruct` found or made.
 struct ReconstructionResult {

@@ -10,14 +10,12 @@
 #include "core/files.hpp"
 #include "diagnosis/candidate.hpp"
 #include "estimate/predictor.hpp"
-#include "validation/studies/program_run.hpp"
-#include "validation/synthetic/case_files.hpp"
+#include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 namespace fs = std::filesystem;
-using recoil::FitResult;
 
 /// Of numbers about their means; 0 where one does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -59,20 +57,19 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
   return best;
 }
 
-FitResult fit_with(const fs::path& fit, const std::vector<std::string>& mechanisms) {
+FitResult fit_with(const fs::path& written, const std::vector<std::string>& mechanisms) {
   std::string ids;
   for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
-  std::string text = recoil::read_text_file(fit);
+  std::string text = read_text_file(written);
   const std::string model = "[model]\n";
   if (text.find(model) == std::string::npos) text.insert(text.find("[parameters]"), model + "\n");
   text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
-  const fs::path changed = fs::path(fit).replace_extension(".with.toml");
-  recoil::write_whole_file(changed, text);
+  const fs::path changed = fs::path(written).replace_extension(".with.toml");
+  write_whole_file(changed, text);
   try {
-    const recoil::FitInputs inputs = recoil::load_inputs(changed);
-    return recoil::fit(recoil::make_model(inputs.spec, inputs.datasets),
-                       recoil::gather(inputs.datasets, inputs.spec));
-  } catch (const recoil::InputError&) {  // a mechanism that these data cannot have
+    const FitInputs inputs = load_inputs(changed);
+    return fit(make_model(inputs.spec, inputs.datasets), gather(inputs.datasets, inputs.spec));
+  } catch (const InputError&) {  // a mechanism that these data cannot have
     return {};
   }
 }
@@ -83,31 +80,31 @@ constexpr int starts = 4;  // as many as a diagnosis follows
 
 /// A model of the written case and its fit under the weights of the base model.
 struct Fitted {
-  recoil::Candidate candidate;
+  Candidate candidate;
   recoil::Refit refit;
 };
 
 /// Of numbers of the same points; infinite where there is no fit.
 double aicc(const FitResult& base, const Fitted& fitted) {
   if (!fitted.refit.usable) return std::numeric_limits<double>::infinity();
-  return recoil::corrected_criterion(base.data, fitted.refit.chi2, fitted.candidate.free_count);
+  return corrected_criterion(base.data, fitted.refit.chi2, fitted.candidate.free_count);
 }
 
 /// `from` with the mechanism `id` added, fitted from the starts that a diagnosis gives a single
 /// cause. Not usable where the data cannot have it.
-Fitted with_added(const recoil::FitInputs& inputs, const FitResult& base, const Fitted& from,
+Fitted with_added(const FitInputs& inputs, const FitResult& base, const Fitted& from,
                   const std::string& id) {
   Fitted with;
   std::vector<std::string> mechanisms = from.candidate.added;
   mechanisms.push_back(id);
   try {
-    with.candidate = recoil::make_candidate(inputs.spec, inputs.datasets, mechanisms);
-  } catch (const recoil::InputError&) {
+    with.candidate = make_candidate(inputs.spec, inputs.datasets, mechanisms);
+  } catch (const InputError&) {
     return with;
   }
-  with.refit = recoil::refit_candidate(
+  with.refit = refit_candidate(
       with.candidate, base.data,
-      recoil::carried_over(from.candidate.model, from.refit.theta, with.candidate.model), starts);
+      carried_over(from.candidate.model, from.refit.theta, with.candidate.model), starts);
   return with;
 }
 
@@ -115,7 +112,7 @@ Fitted with_added(const recoil::FitInputs& inputs, const FitResult& base, const 
 std::vector<double> effect_of(const FitResult& base, const Fitted& with) {
   std::vector<double> effect;
   const auto squares =
-      recoil::predict(with.candidate.model, with.refit.theta, base.data.conditions(), false);
+      predict(with.candidate.model, with.refit.theta, base.data.conditions(), false);
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const double e = std::sqrt(std::max(squares[i].restitution_squared, 0.0));
     effect.push_back((e - base.prediction[i]) / base.data.points[i].weights.sd);
@@ -127,9 +124,9 @@ std::vector<double> effect_of(const FitResult& base, const Fitted& with) {
 
 BaselineAnswers baseline_answers(const Case& made) {
   const ScratchFolder scratch;
-  const recoil::FitInputs inputs = recoil::load_inputs(write_case(made, scratch.path()));
-  const FitResult base = recoil::fit(recoil::make_model(inputs.spec, inputs.datasets),
-                                     recoil::gather(inputs.datasets, inputs.spec));
+  const FitInputs inputs = load_inputs(write_case(made, scratch.path()));
+  const FitResult base =
+      fit(make_model(inputs.spec, inputs.datasets), gather(inputs.datasets, inputs.spec));
   BaselineAnswers answers;
   if (!base.usable) return answers;
   std::vector<std::string> catalogue;
@@ -139,14 +136,14 @@ BaselineAnswers baseline_answers(const Case& made) {
     }
   }
   std::vector<double> log_velocity, log_diameter;
-  for (const recoil::Observation& point : base.data.points) {
+  for (const Observation& point : base.data.points) {
     log_velocity.push_back(std::log(point.velocity));
     log_diameter.push_back(std::log(point.diameter));
   }
   const std::vector<double> discrepancy =
       discrepancy_mean(log_velocity, log_diameter, base.residuals);
-  Fitted current{recoil::make_candidate(inputs.spec, inputs.datasets, {}), {}};
-  current.refit = recoil::refit_candidate(current.candidate, base.data, base.theta, 0);
+  Fitted current{make_candidate(inputs.spec, inputs.datasets, {}), {}};
+  current.refit = refit_candidate(current.candidate, base.data, base.theta, 0);
   double least = aicc(base, current);
   for (std::size_t round = 0; round < 2 && answers.stepwise.size() == round; ++round) {
     const Fitted before = current;
@@ -172,4 +169,4 @@ BaselineAnswers baseline_answers(const Case& made) {
   return answers;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

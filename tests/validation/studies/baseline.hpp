@@ -7,7 +7,7 @@
 #include "estimate/fit.hpp"
 #include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// What two plain methods say of a case, without the rules of a diagnosis.
 struct BaselineAnswers {
@@ -22,8 +22,7 @@ struct BaselineAnswers {
 };
 
 /// The written case `fit`, fitted with `mechanisms`; not usable where the data cannot have them.
-recoil::FitResult fit_with(const std::filesystem::path& fit,
-                           const std::vector<std::string>& mechanisms);
+FitResult fit_with(const std::filesystem::path& fit, const std::vector<std::string>& mechanisms);
 
 /// Fits the base model, every mechanism, and every second one beside the best, all under the
 /// weights of the base model and from the fit with one mechanism less.
@@ -37,4 +36,4 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
                                      const std::vector<double>& log_diameter,
                                      const std::vector<double>& residuals);
 
-}  // namespace hidden
+}  // namespace recoil::hidden

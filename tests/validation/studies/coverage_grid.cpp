@@ -42,8 +42,8 @@ ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, dou
   double e = curve(velocity);
   double variance_of_mean = 0.0;
   if (design.captures) {
-    const CountedImpacts found = count_impacts(curve, impacts_per_point, [&] {
-      return velocity * (1.0 + velocity_scatter * random.normal());
+    const CountedImpacts found = count_impacts(impacts_per_point, [&] {
+      return curve(velocity * (1.0 + velocity_scatter * random.normal()));
     });
     point.events = impacts_per_point;
     point.counted = true;

@@ -36,18 +36,12 @@ Target target_of(const NoiseDesign& design, int number) {
   if (number == 1) target.empty.system.surface = {"silicon", 0.0, 170e9, 0.28, std::nullopt};
   target.empty.id = fmt::format("target-{}", number + 1);
   const ImpactSystem& system = target.empty.system;
-  const DerivedContact contact = derive_recipe_contact(system.particle, system.surface);
-  target.truth.density = system.particle.density;
-  target.truth.stiffness = contact.stiffness;
+  target.truth = undamped_truth(system.particle, system.surface, *system.reference_diameter);
   target.truth.C_H = true_C_H;
   target.truth.C_A = true_C_A;
   if (design.jkr) {
     target.truth.law = TrueAdhesion::jkr;
-    target.truth.work = contact.adhesion_energy;
-  } else {
-    target.truth.reference_diameter = *system.reference_diameter;
-    target.truth.adhesion_force = recipe_adhesion_force(contact.stiffness, contact.adhesion_energy,
-                                                        *system.reference_diameter);
+    target.truth.work = derive_recipe_contact(system.particle, system.surface).adhesion_energy;
   }
   for (int s = 0; s < design.sizes; ++s) {
     const double capture = true_capture_velocity(target.truth, diameters[s]);
@@ -127,119 +121,6 @@ std::vector<Dataset> made_data(const NoiseDesign& design, const std::vector<Targ
   return all;
 }
 
-std::string noise_key(const NoiseDesign& design, const CoverageOptions& options) {
-  return fmt::format("noise {} {} {} {}", design.name, options.datasets,
-                     options.uncertainty.replicates, options.uncertainty.seed);
-}
-
-}  // namespace
-
-const std::vector<NoiseDesign>& noise_designs() {
-  constexpr std::string_view rejected = "larger than the stated noise";
-  constexpr std::string_view height = "share an error of this velocity";
-  constexpr std::string_view few = "average fewer than";
-  static const std::vector<NoiseDesign> designs = {
-      {.name = "single impacts, captures, sd not stated",
-       .stated = false,
-       .velocities = 60,
-       .slowest = 0.7,
-       .fastest = 10.0,
-       .spread = 0.1},
-      {.name = "single impacts, captures, sd stated",
-       .velocities = 60,
-       .slowest = 0.7,
-       .fastest = 10.0,
-       .spread = 0.1,
-       .warning = rejected},
-      {.name = "5 settings, error of e, sd not stated",
-       .stated = false,
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .setting_sd = 0.015},
-      {.name = "5 settings, error of e, sd stated",
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .setting_sd = 0.015},
-      {.name = "5 heights, error not stated, sd not stated",
-       .stated = false,
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .height_sd = 0.03,
-       .warning = height},
-      {.name = "5 heights, error not stated, sd stated",
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .height_sd = 0.03,
-       .warning = height},
-      {.name = "5 heights, error stated, sd not stated",
-       .stated = false,
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .height_sd = 0.03,
-       .height_stated = true},
-      {.name = "5 heights, error stated, sd stated",
-       .velocities = 5,
-       .rows = 8,
-       .sd = 0.01,
-       .height_sd = 0.03,
-       .height_stated = true},
-      {.name = "3 batches of 9 points, error of the size",
-       .sizes = 3,
-       .velocities = 9,
-       .sd = 0.01,
-       .batch_sd = 0.03},
-      {.name = "1 batch of 18 points, error of the size",
-       .velocities = 18,
-       .sd = 0.01,
-       .batch_sd = 0.03},
-      {.name = "sd from 3 to 6 events",
-       .fewest_events = 3,
-       .most_events = 6,
-       .sd = 0.03,
-       .of_sample = true,
-       .warning = few},
-      {.name = "sd from 3 to 60 events",
-       .fewest_events = 3,
-       .most_events = 60,
-       .sd = 0.03,
-       .of_sample = true,
-       .warning = few},
-      {.name = "sd from 10 to 40 events",
-       .fewest_events = 10,
-       .most_events = 40,
-       .sd = 0.03,
-       .of_sample = true,
-       .warning = few},
-      {.name = "3 sizes of 8 points of 20 events, captures",
-       .stated = false,
-       .sizes = 3,
-       .velocities = 8,
-       .slowest = 0.85,
-       .fewest_events = 20,
-       .most_events = 20,
-       .sd = 0.03,
-       .spread = 0.08},
-      {.name = "2 targets, one three times noisier",
-       .stated = false,
-       .targets = 2,
-       .sd = 0.01,
-       .warning = "one scale of the noise"},
-      {.name = "jkr data fitted with ring", .sizes = 3, .velocities = 12, .sd = 0.01, .jkr = true},
-      {.name = "3 sizes of 9 points, noise fivefold at capture",
-       .stated = false,
-       .sizes = 3,
-       .velocities = 9,
-       .sd = 0.01,
-       .growth = 5.0},
-  };
-  return designs;
-}
-
 FitSpec noise_spec(const NoiseDesign& design) {
   FitSpec spec;
   spec.id = "noise";
@@ -251,6 +132,7 @@ FitSpec noise_spec(const NoiseDesign& design) {
   return spec;
 }
 
+/// The truth of a design, and its data sets.
 CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed) {
   auto targets = std::make_shared<std::vector<Target>>();
   for (int t = 0; t < design.targets; ++t) targets->push_back(target_of(design, t));
@@ -270,6 +152,72 @@ CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed) {
     }
   }
   return truth;
+}
+
+std::string noise_key(const NoiseDesign& design, const CoverageOptions& options) {
+  return fmt::format("noise {} {} {} {}", design.name, options.datasets,
+                     options.uncertainty.replicates, options.uncertainty.seed);
+}
+
+}  // namespace
+
+const std::vector<NoiseDesign>& noise_designs() {
+  static const std::vector<NoiseDesign> all = [] {
+    const NoiseDesign singles{.velocities = 60, .slowest = 0.7, .fastest = 10.0, .spread = 0.1};
+    const NoiseDesign settings{.velocities = 5, .rows = 8, .sd = 0.01, .setting_sd = 0.015};
+    const NoiseDesign heights{.velocities = 5, .rows = 8, .sd = 0.01, .height_sd = 0.03};
+    const NoiseDesign batches{.sd = 0.01, .batch_sd = 0.03};
+    const NoiseDesign samples{.sd = 0.03, .of_sample = true, .warning = "average fewer than"};
+    std::vector<NoiseDesign> designs;
+    const auto add = [&](std::string_view name, const NoiseDesign& design) -> NoiseDesign& {
+      designs.push_back(design);
+      designs.back().name = name;
+      return designs.back();
+    };
+    const auto add_samples = [&](std::string_view name, int fewest, int most) {
+      NoiseDesign& design = add(name, samples);
+      design.fewest_events = fewest;
+      design.most_events = most;
+    };
+    add("single impacts, captures, sd not stated", singles).stated = false;
+    add("single impacts, captures, sd stated", singles).warning = "larger than the stated noise";
+    add("5 settings, error of e, sd not stated", settings).stated = false;
+    add("5 settings, error of e, sd stated", settings);
+    for (const bool known : {false, true}) {
+      for (const bool stated : {false, true}) {
+        NoiseDesign& design = add(known    ? stated ? "5 heights, error stated, sd stated"
+                                                    : "5 heights, error stated, sd not stated"
+                                  : stated ? "5 heights, error not stated, sd stated"
+                                           : "5 heights, error not stated, sd not stated",
+                                  heights);
+        design.stated = stated;
+        design.height_stated = known;
+        if (!known) design.warning = "share an error of this velocity";
+      }
+    }
+    NoiseDesign& three = add("3 batches of 9 points, error of the size", batches);
+    three.sizes = 3;
+    three.velocities = 9;
+    add("1 batch of 18 points, error of the size", batches).velocities = 18;
+    add_samples("sd from 3 to 6 events", 3, 6);
+    add_samples("sd from 3 to 60 events", 3, 60);
+    add_samples("sd from 10 to 40 events", 10, 40);
+    add("3 sizes of 8 points of 20 events, captures", {.stated = false,
+                                                       .sizes = 3,
+                                                       .velocities = 8,
+                                                       .slowest = 0.85,
+                                                       .fewest_events = 20,
+                                                       .most_events = 20,
+                                                       .sd = 0.03,
+                                                       .spread = 0.08});
+    add("2 targets, one three times noisier", {.stated = false, .targets = 2, .sd = 0.01}).warning =
+        "one scale of the noise";
+    add("jkr data fitted with ring", {.sizes = 3, .velocities = 12, .sd = 0.01, .jkr = true});
+    add("3 sizes of 9 points, noise fivefold at capture",
+        {.stated = false, .sizes = 3, .velocities = 9, .sd = 0.01, .growth = 5.0});
+    return designs;
+  }();
+  return all;
 }
 
 CoverageResult measure_noise(const NoiseDesign& design, const CoverageOptions& options) {
@@ -299,15 +247,10 @@ CoverageResult measure_noise(const NoiseDesign& design, const CoverageOptions& o
   return result;
 }
 
-CoverageStudy study_noise(const std::vector<std::string>& words, const CoverageOptions& options,
-                          const std::filesystem::path& kept) {
+CoverageStudy study_noise(const CoverageOptions& options, const std::filesystem::path& kept) {
   CoverageStudy study;
   study.exact_materials = true;
   for (const NoiseDesign& design : noise_designs()) {
-    const auto has = [&](const std::string& word) {
-      return design.name.find(word) != std::string_view::npos;
-    };
-    if (!std::all_of(words.begin(), words.end(), has)) continue;
     add_measured(study, std::string(design.name), options, kept, noise_key(design, options),
                  [&] { return measure_noise(design, options); });
   }

@@ -12,7 +12,7 @@ namespace recoil {
 /// (or three), and velocities evenly in ln V. `truth` code makes them, which shares none with the
 /// fitter.
 struct NoiseDesign {
-  std::string_view name;
+  std::string_view name = {};
   bool stated = true;    ///< is `restitution_sd` given?
   int sizes = 1;         ///< 1 or 3
   int targets = 1;       ///< the second has three times the noise
@@ -34,16 +34,11 @@ struct NoiseDesign {
 };
 const std::vector<NoiseDesign>& noise_designs();
 
-/// The truth of a design, and its data sets.
-CoverageTruth noise_truth(const NoiseDesign& design, std::uint64_t seed);
-FitSpec noise_spec(const NoiseDesign& design);
-
 /// `measure_coverage` of a design. A parameter counts as poorly determined also in data sets whose
 /// fit carries the warning of the design, and so does V* without an interval.
 CoverageResult measure_noise(const NoiseDesign& design, const CoverageOptions& options);
 
-/// All designs, or those whose name has every one of `words`; kept as those of a grid.
-CoverageStudy study_noise(const std::vector<std::string>& words, const CoverageOptions& options,
-                          const std::filesystem::path& kept);
+/// All designs, kept as those of a grid.
+CoverageStudy study_noise(const CoverageOptions& options, const std::filesystem::path& kept);
 
 }  // namespace recoil

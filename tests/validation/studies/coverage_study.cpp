@@ -35,10 +35,9 @@ CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::
 }
 
 std::string key_of(const FitSpec& spec, const CoverageOptions& options) {
-  return fmt::format("{} {} {} {} {} {} {}", spec.sha256, options.datasets,
+  return fmt::format("{} {} {} {} {} {}", spec.sha256, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed,
-                     options.uncertainty.level, options.uncertainty.posterior,
-                     static_cast<int>(spec.uncertainty.materials));
+                     options.uncertainty.level, static_cast<int>(spec.uncertainty.materials));
 }
 
 void set_options(CoverageStudy& study, const CoverageOptions& options) {
@@ -51,20 +50,16 @@ void set_options(CoverageStudy& study, const CoverageOptions& options) {
 void add_result(CoverageStudy& study, const std::string& design, const CoverageResult& result) {
   study.designs.push_back({design, result.truth_origin, result.failed, result.refits_failed});
   for (const CoverageRow& from : result.rows) {
-    ParameterCoverage row{design,
-                          from.parameter,
-                          from.unit,
-                          from.truth,
-                          result.datasets - result.failed,
-                          from.identifiable,
-                          {},
-                          from.actual_error,
-                          {}};
+    ParameterCoverage row;
+    row.design = design;
+    row.parameter = from.parameter;
+    row.unit = from.unit;
+    row.truth = from.truth;
+    row.usable = result.datasets - result.failed;
+    row.identifiable = from.identifiable;
+    row.actual_error = from.actual_error;
     for (const CoverageCell& cell : from.cells) {
-      // A method that no data set was asked for has no column.
-      if (cell.offered == 0 && cell.interval == "posterior") {
-        continue;
-      }
+      if (cell.interval == "posterior") continue;  // not sampled
       std::optional<double> width;
       if (from.truth > 0.0 && cell.offered > 0 && std::isfinite(cell.median_width)) {
         width = cell.median_width / from.truth;

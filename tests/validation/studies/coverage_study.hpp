@@ -12,7 +12,7 @@
 #include "coverage/coverage.hpp"
 #include "data/dataset.hpp"
 #include "validation/studies/coverage_grid.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 

@@ -1,21 +1,20 @@
 #include "validation/studies/diagnosis_answer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
 
+#include "core/child.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "validation/studies/hidden_effects_plan.hpp"
-#include "validation/studies/program_run.hpp"
-#include "validation/synthetic/case_files.hpp"
+#include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
-
-using recoil::Json;
 
 namespace fs = std::filesystem;
 
@@ -59,12 +58,14 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   const ScratchFolder scratch;
   const fs::path fit = write_case(made, scratch.path());
   const fs::path out = scratch.path() / "answer";
-  const ProgramRun run = run_program({binary.string(), "diagnose", fit.string(), "--out",
-                                      out.string(), "--threads", "1", "--seed", "20260101"});
-  a.status = run.status;
-  a.seconds += run.seconds;
-  if (run.status != 0) {
-    a.complaint = run.complaint.substr(0, 400);
+  const auto start = std::chrono::steady_clock::now();
+  const ChildOutcome run = run_child({binary.string(), "diagnose", fit.string(), "--out",
+                                      out.string(), "--threads", "1", "--seed", "20260101"},
+                                     "", std::chrono::hours(24));
+  a.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  a.status = run.failed == 0 ? run.status : -1;
+  if (a.status != 0) {
+    a.complaint = run.failed == 0 ? run.err.substr(0, 400) : "cannot be started";
     return {};
   }
   std::ifstream in(out / "diagnosis.json");
@@ -134,7 +135,7 @@ Case without_noise(Case made) {
 }
 
 double misfit_left(const fs::path& fit, const std::string& mechanism) {
-  const recoil::FitResult fitted =
+  const FitResult fitted =
       fit_with(fit, mechanism.empty() ? std::vector<std::string>{} : std::vector{mechanism});
   return fitted.usable ? std::sqrt(fitted.chi2) : std::numeric_limits<double>::infinity();
 }
@@ -171,8 +172,8 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep
   if (keep.empty()) return {};
   std::ifstream in(kept_file(order, keep));
   const Json kept = in ? Json::parse(in, nullptr, false) : Json();
-  if (!kept.is_object() || kept.value("order", Json()) != recoil::as_json(order)) return {};
-  return recoil::value_from<Answered>(kept);
+  if (!kept.is_object() || kept.value("order", Json()) != as_json(order)) return {};
+  return value_from<Answered>(kept);
 }
 
 Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep, bool baseline) {
@@ -192,10 +193,9 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {
-    recoil::write_whole_file(kept_file(order, keep),
-                             recoil::json_text(recoil::as_json(a, recoil::NonFinite::word)));
+    write_whole_file(kept_file(order, keep), json_text(as_json(a, NonFinite::word)));
   }
   return a;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

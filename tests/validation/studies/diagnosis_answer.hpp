@@ -10,9 +10,9 @@
 #include "core/json.hpp"
 #include "core/names.hpp"
 #include "validation/studies/baseline.hpp"
-#include "validation/synthetic/further_impacts.hpp"
+#include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// The single cause of the catalogue, other than the true one, that comes closest to it.
 struct NearestRival {
@@ -48,7 +48,7 @@ struct Answered {
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
-  recoil::OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
+  OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
                 verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
                 odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
@@ -91,10 +91,10 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesyste
 Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
              const std::filesystem::path& keep, bool baseline = false);
 
-}  // namespace hidden
+}  // namespace recoil::hidden
 
 template <>
-struct recoil::NamesOf<hidden::Mark> {
+struct recoil::NamesOf<recoil::hidden::Mark> {
   static constexpr std::array<std::string_view, 9> names = {"adequate",
                                                             "unexplained",
                                                             "unexplained, shape recognised",

@@ -1,5 +1,3 @@
-#include "validation/studies/hidden_effects_page.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,30 +8,16 @@
 #include <optional>
 
 #include "core/statistics.hpp"
-#include "validation/studies/study_tables.hpp"
+#include "validation/studies/hidden_effects_tally.hpp"
+#include "validation/studies/study.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
-
-namespace plot = recoil::plot;
-using recoil::Block;
-using recoil::Cell;
-using recoil::code;
-using recoil::List;
-using recoil::Paragraph;
-using recoil::say;
-using recoil::Section;
-using recoil::Sentence;
-using recoil::strong;
-using recoil::study_table;
-using recoil::StudyColumn;
-using recoil::Table;
-using recoil::word_cell;
 
 /// "83 % (73 to 91), 58 of 70": with the 95 % limits of the share.
 Sentence share(const Count& count) {
   if (count.n == 0) return "none";
-  const recoil::ShareLimits limits = recoil::share_limits(count.k, count.n);
+  const ShareLimits limits = share_limits(count.k, count.n);
   return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * count.k / count.n,
                      100.0 * limits.lower, 100.0 * limits.upper, count.k, count.n);
 }
@@ -206,14 +190,8 @@ Sentence missed_words(const StudyTally& tally) {
 }
 
 std::vector<Block> foreword(const StudyTally& tally) {
-  Sentence made = say("Seed {}; {} data sets, {} of them made.", static_cast<long long>(tally.seed),
-                      tally.tried, tally.made);
-  if (tally.tried < tally.planned) {
-    made += Sentence(" ") + strong(fmt::format("{} were planned", tally.planned)) +
-            Sentence(
-                ": the study was ended before the others were tried. They stood in shuffled "
-                "order, so that those that were tried are a fair sample of all.");
-  }
+  const Sentence made = say("Seed {}; {} data sets, {} of them made.",
+                            static_cast<long long>(tally.seed), tally.tried, tally.made);
   std::vector<Block> blocks = {
       Paragraph{
           say("Data in which an effect is hidden, made by separate physics ({}: the contact in "
@@ -229,7 +207,7 @@ std::vector<Block> foreword(const StudyTally& tally) {
               code("tests/validation/synthetic"), visible, code("wall"), code("wall-batches"),
               code("li"), code("wall-one"), code("dahneke"), code("drops"))},
       Paragraph{made}};
-  recoil::append(blocks, recoil::stamp_blocks(tally.stamp));
+  append(blocks, stamp_blocks(tally.stamp));
   return blocks;
 }
 
@@ -282,19 +260,15 @@ constexpr int height = 640;
 /// The share of the data sets of one strength that a curve counts [%]; none where there are none.
 std::optional<double> share_of(const std::vector<PowerRow>& powers, const Curve& curve,
                                double strength) {
-  double n = 0.0;
-  double hits = 0.0;
+  int n = 0;
+  int hits = 0;
   for (const PowerRow& row : powers) {
     if (row.arm != Arm::effect || row.signal_to_noise != strength) continue;
-    for (const auto& [mark, count] : row.marks) {
-      const bool in =
-          std::any_of(curve.marks.begin(), curve.marks.end(),
-                      [&, &name = mark](Mark one) { return recoil::name_of(one) == name; });
-      n += count;
-      hits += in != curve.without ? count : 0;
-    }
+    n += row.n;
+    for (const Mark mark : curve.marks) hits += row.marked(mark);
   }
-  return n > 0.0 ? std::optional(100.0 * hits / n) : std::nullopt;
+  if (n == 0) return std::nullopt;
+  return 100.0 * (curve.without ? n - hits : hits) / n;
 }
 
 plot::Plot power_panel(const StudyTally& tally) {
@@ -312,7 +286,7 @@ plot::Plot power_panel(const StudyTally& tally) {
     const plot::Marker& marker = plot::marker(k);
     plot::Line line{{}, {}, {marker.colour, 2.0}, marker.mark, 0.9};
     line.name = curves()[k].label;
-    for (const double strength : study_strengths()) {
+    for (const double strength : study_strengths) {
       const std::optional<double> share = share_of(tally.powers, curves()[k], strength);
       line.x.push_back(strength);
       line.y.push_back(share.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -323,15 +297,14 @@ plot::Plot power_panel(const StudyTally& tally) {
 }
 
 plot::Plot heat_panel(const Confusion& c) {
-  plot::Plot panel = recoil::table_plot(c.rows, c.columns, 10.0);
+  plot::Plot panel = table_plot(c.rows, c.columns, 10.0);
   panel.frame = plot::Frame{0.50 * width, 0.91 * width, 0.30 * height, 0.92 * height};
   panel.heading = "Hidden (rows) and answered (columns), snr 10 and more";
   auto& cells = std::get<plot::Boxes>(panel.layers.front());
   for (std::size_t r = 0; r < c.rows.size(); ++r) {
     const double sum = std::accumulate(c.counts[r].begin(), c.counts[r].end(), 0.0);
     for (std::size_t k = 0; k < c.columns.size(); ++k) {
-      recoil::add_cell(cells, r, k)
-          .values.push_back(sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0);
+      add_cell(cells, r, k).values.push_back(sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0);
     }
   }
   panel.colours = plot::ColourScale{
@@ -341,8 +314,8 @@ plot::Plot heat_panel(const Confusion& c) {
 
 }  // namespace
 
-recoil::Document hidden_effects_page(const StudyTally& tally) {
-  recoil::Document page;
+Document page_of(const StudyTally& tally) {
+  Document page;
   page.heading = "Hidden effects: what the diagnosis finds";
   page.foreword = foreword(tally);
   const auto section = [&page](Sentence title, std::vector<Block> blocks) {
@@ -351,12 +324,12 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
     made.blocks = std::move(blocks);
     page.sections.push_back(std::move(made));
   };
-  recoil::Figure figure;
+  Figure figure;
   figure.id = "hidden-effects";
   figure.caption = "Power and confusion";
   section("The bars",
           {Paragraph{"Designs with several diameters, snr 10 and more, unless said otherwise."},
-           bars_table(tally), Paragraph{missed_words(tally)}, recoil::Figures{{figure}},
+           bars_table(tally), Paragraph{missed_words(tally)}, Figures{{figure}},
            Paragraph{say(
                "Whether an effect can be named at all depends on its neighbours in the catalogue: "
                "{} and {} (a charge that grows as d²) take the same from v² at every velocity and "
@@ -456,7 +429,7 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
   return page;
 }
 
-recoil::plot::Picture hidden_effects_picture(const StudyTally& tally) {
+plot::Picture picture_of(const StudyTally& tally) {
   plot::Picture picture;
   picture.name = "hidden-effects";
   picture.title = "Power of the diagnosis against strength, and what is taken for what";
@@ -466,4 +439,4 @@ recoil::plot::Picture hidden_effects_picture(const StudyTally& tally) {
   return picture;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

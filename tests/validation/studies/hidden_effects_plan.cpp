@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "validation/synthetic/other_laws.hpp"
+#include "validation/synthetic/sphere.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 /// Two effects at once that an experiment may well have.
@@ -25,18 +25,29 @@ const std::vector<std::string> effects_of_drops = {"plastic_yield", "bulk_viscoe
                                                    "plate_flexure", "hysteretic_loss",
                                                    "flight_drag",   "height_origin"};
 
+using Designs = std::vector<const char*>;
+using Strengths = std::vector<double>;
+const Designs several_sizes = {"wall", "li"};
+const Strengths middle = {10.0, 20.0};  // visible, without the strongest
+const Strengths none = {0.0};
+
 class Plan {
  public:
   explicit Plan(std::uint64_t seed) : seed_(seed) {}
-  void add(const char* design, const std::vector<std::string>& effects, double strength, int count,
-           CaseOrder order = {}) {
-    order.design = design;
+  /// Adds `count` orders of each design and strength, otherwise like `order`.
+  void add(const Designs& designs, const std::vector<std::string>& effects,
+           const Strengths& strengths, int count, CaseOrder order = {}) {
     order.effects = effects;
-    order.signal_to_noise = strength;
     order.seed = seed_;
-    for (int i = 0; i < count; ++i) {
-      order.index = static_cast<std::uint64_t>(i);
-      orders.push_back(order);
+    for (const char* design : designs) {
+      for (const double strength : strengths) {
+        order.design = design;
+        order.signal_to_noise = strength;
+        for (int i = 0; i < count; ++i) {
+          order.index = static_cast<std::uint64_t>(i);
+          orders.push_back(order);
+        }
+      }
     }
   }
   std::vector<CaseOrder> orders;
@@ -45,38 +56,82 @@ class Plan {
   std::uint64_t seed_;
 };
 
+/// An effect of the catalogue alone.
+void add_effect(Plan& plan, const std::vector<std::string>& effect, const StudySize& size) {
+  const Strengths all(study_strengths.begin(), study_strengths.end());
+  plan.add(several_sizes, effect, all, size.per_cell);
+  plan.add({"wall-batches"}, effect, all, (size.per_cell + 1) / 2);
+  plan.add(several_sizes, effect, middle, size.bent, {.law_bend = some_bend});
+  plan.add(several_sizes, effect, middle, size.bent / 2, {.law_bend = great_bend});
+  plan.add(several_sizes, effect, none, size.impossible, {.beyond = too_strong});
+  plan.add(several_sizes, effect, middle, size.loop, {.rounds = most_rounds});
+  plan.add({"wall-one", "dahneke"}, effect, middle, size.single);
+  if (change_against(effect.front()).name.empty()) return;
+  for (const Circumstances circumstances : {Circumstances::stated, Circumstances::varied}) {
+    plan.add(several_sizes, effect, middle, size.conditions, {.circumstances = circumstances});
+  }
+}
+
 /// Laws of dry contacts in dry contacts, and beside adhesion.
 void add_other_laws(Plan& plan, int count) {
   for (const std::string_view effect : effects_with_other_law()) {
-    std::vector<const char*> designs = {"wall", "li"};
+    Designs designs = several_sizes;
     if (is_law_of_dry_contact(effect)) designs.push_back("drops");
-    for (const char* design : designs) {
-      for (const double strength : {10.0, 20.0}) {
-        plan.add(design, {std::string(effect)}, strength, count, {.other_law = true});
-      }
-    }
+    plan.add(designs, {std::string(effect)}, middle, count, {.other_law = true});
   }
 }
 
 /// Nothing hidden, or what such readings may have beside it: air, of heights an origin, of times
 /// what the contact loses.
 void add_rounded(Plan& plan, int count) {
-  for (const Readout readout : recoil::values_of<Readout>()) {
+  for (const Readout readout : values_of<Readout>()) {
     if (readout == Readout::exact) continue;
     const CaseOrder order{.readout = readout};
-    for (const char* design : {"drops", "balls"}) plan.add(design, {}, 0.0, count, order);
-    plan.add("drops", {"flight_drag"}, 20.0, count, order);
+    plan.add({"drops", "balls"}, {}, none, count, order);
+    plan.add({"drops"}, {"flight_drag"}, {20.0}, count, order);
     if (reads_times(readout)) {
-      plan.add("drops", {"plastic_yield"}, 20.0, count, order);
-      continue;
-    }
-    for (const char* design : {"drops", "balls"}) {
-      plan.add(design, {"height_origin"}, 20.0, count, order);
+      plan.add({"drops"}, {"plastic_yield"}, {20.0}, count, order);
+    } else {
+      plan.add({"drops", "balls"}, {"height_origin"}, {20.0}, count, order);
     }
   }
 }
 
 }  // namespace
+
+const std::vector<StudyPart>& study_parts() {
+  using Size = StudySize;
+  static const std::vector<StudyPart> parts = {
+      {"--datasets", &Size::per_cell, "of each effect, design and strength"},
+      {"--correct", &Size::correct, "with nothing hidden"},
+      {"--pairs", &Size::pairs, "of each pair, design and strength"},
+      {"--outside", &Size::outside, "of each outside effect, design and strength"},
+      {"--single", &Size::single, "of each effect and strength with one diameter"},
+      {"--careless", &Size::careless, "of each kind of error that is not stated, and design"},
+      {"--bent", &Size::bent,
+       "of each effect, design and visible strength, by a law bent by 10 % (half as many by 20 %)"},
+      {"--other-law", &Size::other_law,
+       "of each effect with a second published law, design and visible strength"},
+      {"--base-bent", &Size::base_bent,
+       "with nothing hidden and the losses of the base model bent by 3 %"},
+      {"--impossible", &Size::impossible,
+       "of each effect and design, at three times what nature has"},
+      {"--conditions", &Size::conditions,
+       "of each effect that a condition takes away, design and visible strength, with its "
+       "condition "
+       "stated and again varied"},
+      {"--loop", &Size::loop,
+       "of each effect, design and visible strength, asked again after doing what the answer "
+       "advises, three times at most"},
+      {"--dropped", &Size::dropped,
+       "of each effect of drops of spheres of millimetres and visible strength; six times as many "
+       "with heights set wrong, and with nothing hidden"},
+      {"--rounded", &Size::rounded,
+       "of each step of reading, design of drops and effect: heights or times of flight that are "
+       "read to a finite step"},
+      {"--odd", &Size::odd, "of each design, with a few points misread"}};
+  return parts;
+}
 
 Arm arm_of(const CaseOrder& order) {
   if (!order.effects.empty() && order.effects.front() == "settings") return Arm::settings;
@@ -109,65 +164,34 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
   Plan plan(size.seed);
   for (const HiddenEffect& known : hidden_effects()) {
     const std::vector<std::string> effect = {std::string(known.id)};
-    if (effect.front() == "settings") {
-      plan.add("drops", effect, 0.0, 6 * size.dropped);
-      continue;
-    }
-    if (effect.front() == "odd_points") {
-      for (const char* design : {"wall", "li", "drops"}) plan.add(design, effect, 0.0, size.odd);
-      continue;
-    }
-    if (known.kind == EffectKind::careless) {
-      for (const char* design : {"wall", "li"}) plan.add(design, effect, 0.0, size.careless);
-      continue;
-    }
-    const bool outside = known.kind == EffectKind::outside;
-    for (const double strength : study_strengths()) {
-      const int count = outside ? size.outside : size.per_cell;
-      if (outside && strength < visible) continue;
-      for (const char* design : {"wall", "li"}) plan.add(design, effect, strength, count);
-      if (!outside) plan.add("wall-batches", effect, strength, (count + 1) / 2);
-    }
-    for (const char* design : {"wall", "li"}) {
-      if (outside) continue;
-      for (const double strength : {10.0, 20.0}) {
-        plan.add(design, effect, strength, size.bent, {.law_bend = some_bend});
-        plan.add(design, effect, strength, size.bent / 2, {.law_bend = great_bend});
-      }
-      plan.add(design, effect, 0.0, size.impossible, {.beyond = too_strong});
-      for (const double strength : {10.0, 20.0}) {
-        plan.add(design, effect, strength, size.loop, {.rounds = most_rounds});
-        if (change_against(effect.front()).name.empty()) continue;
-        for (const Circumstances circumstances : {Circumstances::stated, Circumstances::varied}) {
-          plan.add(design, effect, strength, size.conditions, {.circumstances = circumstances});
-        }
-      }
-    }
-    for (const double strength : {10.0, 20.0}) {
-      for (const char* design : {"wall-one", "dahneke"}) {
-        if (!outside) plan.add(design, effect, strength, size.single);
-      }
+    if (known.id == "settings") {
+      plan.add({"drops"}, effect, none, 6 * size.dropped);
+    } else if (known.id == "odd_points") {
+      plan.add({"wall", "li", "drops"}, effect, none, size.odd);
+    } else if (known.kind == EffectKind::careless) {
+      plan.add(several_sizes, effect, none, size.careless);
+    } else if (known.kind == EffectKind::outside) {
+      plan.add(several_sizes, effect, {10.0, 20.0, 40.0}, size.outside);
+    } else {
+      add_effect(plan, effect, size);
     }
   }
   for (const std::vector<std::string>& pair : pairs_of_effects) {
-    for (const double strength : {10.0, 20.0}) {
-      for (const char* design : {"wall", "li"}) plan.add(design, pair, strength, size.pairs);
-    }
+    plan.add(several_sizes, pair, middle, size.pairs);
   }
   for (const std::string& effect : effects_of_drops) {
-    for (const double strength : {10.0, 20.0}) plan.add("drops", {effect}, strength, size.dropped);
+    plan.add({"drops"}, {effect}, middle, size.dropped);
   }
-  plan.add("drops", {}, 0.0, 6 * size.dropped);
+  plan.add({"drops"}, {}, none, 6 * size.dropped);
   add_other_laws(plan, size.other_law);
   add_rounded(plan, size.rounded);
   // Nothing hidden: half as in Wall's design, the rest shared.
-  plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
-  plan.add("li", {}, 0.0, size.correct / 4);
-  for (const char* design : {"wall", "li"}) {
-    plan.add(design, {}, 0.0, size.base_bent / 2, {.base_bend = slight_bend});
-  }
-  plan.add("wall-batches", {}, 0.0, size.correct - (size.correct + 1) / 2 - size.correct / 4);
-  for (const char* design : {"wall-one", "dahneke"}) plan.add(design, {}, 0.0, 5 * size.single);
+  const int half = (size.correct + 1) / 2;
+  plan.add({"wall"}, {}, none, half);
+  plan.add({"li"}, {}, none, size.correct / 4);
+  plan.add({"wall-batches"}, {}, none, size.correct - half - size.correct / 4);
+  plan.add(several_sizes, {}, none, size.base_bent / 2, {.base_bend = slight_bend});
+  plan.add({"wall-one", "dahneke"}, {}, none, 5 * size.single);
   // By names that say nothing.
   std::sort(plan.orders.begin(), plan.orders.end(), [](const CaseOrder& a, const CaseOrder& b) {
     return std::pair(neutral_name(a), a.key()) < std::pair(neutral_name(b), b.key());
@@ -175,4 +199,4 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
   return plan.orders;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

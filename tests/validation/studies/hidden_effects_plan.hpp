@@ -1,41 +1,32 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "core/names.hpp"
 #include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
-/// How many data sets of each kind.
+/// How many data sets of each kind; `study_parts` says of what.
 struct StudySize {
-  int per_cell = 4;   ///< of each effect, design and strength
-  int correct = 400;  ///< with nothing hidden, in designs of several diameters
-  int pairs = 4;      ///< of each pair and design
-  int outside = 10;   ///< of each outside effect, design and strength
-  int single = 4;     ///< of each effect and strength in designs of one diameter
-  int careless = 6;   ///< of each kind of error that is not stated, and design
-  int bent = 2;       ///< of each effect, design and visible strength, with laws bent by 10 %
-  int other_law = 2;  ///< of each effect that has one, design and visible strength, made by another
-                      ///< published law
-  int base_bent = 100;  ///< with nothing hidden and the losses of the base model bent by 3 %
-  int impossible = 1;   ///< of each effect and design, at three times what nature has
-  int conditions = 1;  ///< of each effect that a condition takes away, design and visible strength,
-                       ///< with its condition stated, and again varied
-  int loop = 1;        ///< of each effect, design and visible strength, asked again after doing
-                       ///< what the answer advises
-  int dropped = 2;     ///< of each effect that drops by hand may have and visible strength, of each
-                       ///< error of a setting; and six times as many with nothing hidden
-  int rounded = 4;     ///< of each step of reading, design of drops and effect
-  int odd = 6;         ///< of each design, with a few points misread
+  int per_cell = 4, correct = 400, pairs = 4, outside = 10, single = 4, careless = 6, bent = 2;
+  int other_law = 2, base_bent = 100, impossible = 1, conditions = 1, loop = 1, dropped = 2;
+  int rounded = 4, odd = 6;
   std::uint64_t seed = 20260101;
 };
 
-inline const std::vector<double>& study_strengths() {
-  static const std::vector<double> strengths = {5.0, 10.0, 20.0, 40.0};
-  return strengths;
-}
+/// A kind of data sets, as an option of the study.
+struct StudyPart {
+  const char* option;
+  int StudySize::*count;
+  const char* words;  ///< of what there are so many
+};
+const std::vector<StudyPart>& study_parts();
+
+/// Signal-to-noise of one effect [1].
+inline constexpr std::array study_strengths = {5.0, 10.0, 20.0, 40.0};
 inline constexpr double visible = 10.0;  ///< signal-to-noise from which on the bars count
 
 /// What a data set is in the study for.
@@ -66,10 +57,10 @@ Arm arm_of(const CaseOrder& order);
 /// fair sample of all of it.
 std::vector<CaseOrder> plan_study(const StudySize& size);
 
-}  // namespace hidden
+}  // namespace recoil::hidden
 
 template <>
-struct recoil::NamesOf<hidden::Arm> {
+struct recoil::NamesOf<recoil::hidden::Arm> {
   static constexpr std::array<std::string_view, 19> names = {
       "effect",    "correct",   "pair",           "outside",   "single",     "careless", "bent",
       "bent_more", "other_law", "other_adhesive", "base_bent", "impossible", "stated",   "varied",

@@ -1,15 +1,16 @@
 #include "validation/studies/hidden_effects_tally.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/statistics.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
-using recoil::name_of;
 using Answers = std::vector<const Answered*>;
 using Test = std::function<bool(const Answered&)>;
 
@@ -37,6 +38,13 @@ Count count(const Bar& bar, const std::vector<Answered>& all) {
     points.n += a->*bar.whole;
   }
   return points;
+}
+
+/// A bar that counts points that are misread, or the others.
+Bar points_bar(const char* id, const char* words, double share, bool at_least, int Answered::*part,
+               int Answered::*whole) {
+  const auto is_odd = [](const Answered& a) { return arm_of(a.order) == Arm::odd; };
+  return {id, words, share, at_least, is_odd, {}, part, whole};
 }
 
 Test marked(const std::vector<Mark>& marks) {
@@ -142,8 +150,7 @@ std::vector<AlarmRow> alarms_of(const std::vector<Answered>& all) {
       return a.order.design == design && a.order.effects.empty() &&
              a.order.readout == Readout::exact;
     });
-    rows.push_back({std::string(design),
-                    count(of, [](const Answered& a) { return mark_of(a) != Mark::nothing; }),
+    rows.push_back({std::string(design), count(of, alarms),
                     count(of, [](const Answered& a) { return a.p_value < 0.05; })});
   }
   return rows;
@@ -181,7 +188,7 @@ std::optional<Times> times_of(const std::vector<Answered>& all) {
   return Times{at(0.5), at(0.9), seconds.back(), static_cast<int>(seconds.size())};
 }
 
-recoil::OrAbsent<LoopEffort> loop_of(const std::vector<Answered>& all) {
+OrAbsent<LoopEffort> loop_of(const std::vector<Answered>& all) {
   LoopEffort effort;
   std::vector<double> events;
   std::vector<double> rounds;
@@ -198,8 +205,8 @@ recoil::OrAbsent<LoopEffort> loop_of(const std::vector<Answered>& all) {
   if (loop.empty()) return {};
   effort.n = static_cast<int>(events.size());
   if (effort.n > 0) {
-    effort.median_events = recoil::median(std::move(events));
-    effort.median_rounds = recoil::median(std::move(rounds));
+    effort.median_events = median(std::move(events));
+    effort.median_rounds = median(std::move(rounds));
   }
   return effort;
 }
@@ -223,7 +230,7 @@ MethodRow method_row(const char* method, const Answers& effects, const Answers& 
           count(nothing, [&](const Answered& a) { return !ids(a).empty(); })};
 }
 
-recoil::OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>& all) {
+OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>& all) {
   const Test asked = [](const Answered& a) { return a.baseline.has_value(); };
   const Answers effects = those(all, both(seen(Arm::effect), asked));
   const Answers nothing = those(all, both(in(Arm::correct), asked));
@@ -238,9 +245,46 @@ recoil::OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>&
         const std::string& id = a.baseline->correlated;
         return id.empty() ? std::vector<std::string>() : std::vector<std::string>{id};
       })};
-  recoil::OrAbsent<std::vector<MethodRow>> found;
+  OrAbsent<std::vector<MethodRow>> found;
   found.emplace(std::move(rows));
   return found;
+}
+
+Confusion confusion_of(const std::vector<Answered>& answers) {
+  Confusion c;
+  std::vector<std::string> ids;
+  for (const HiddenEffect& effect : hidden_effects()) {
+    if (effect.kind == EffectKind::careless) continue;
+    c.rows.emplace_back(effect.id);
+    if (effect.kind != EffectKind::outside) ids.emplace_back(effect.id);
+  }
+  c.rows.emplace_back("nothing");
+  c.columns = ids;
+  const std::vector<Mark> others = {Mark::inside,  Mark::outside,   Mark::unexplained,
+                                    Mark::nothing, Mark::resembled, Mark::failed};
+  for (const Mark mark : others) c.columns.emplace_back(name_of(mark));
+  c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
+  const auto index = [](const std::vector<std::string>& list, std::string_view word) {
+    return static_cast<std::size_t>(std::find(list.begin(), list.end(), word) - list.begin());
+  };
+  for (const Answered& a : answers) {
+    const Arm arm = arm_of(a.order);
+    const bool exact = arm == Arm::effect || arm == Arm::correct || arm == Arm::outside;
+    if (!a.reached || !exact) continue;
+    if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
+    const std::size_t row =
+        index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());
+    const Mark mark = mark_of(a);
+    if (std::find(others.begin(), others.end(), mark) != others.end()) {
+      ++c.counts[row][index(c.columns, name_of(mark))];
+      continue;
+    }
+    for (const std::string& name : a.named) {
+      const std::size_t column = index(c.columns, name);
+      if (column < c.columns.size()) ++c.counts[row][column];
+    }
+  }
+  return c;
 }
 
 }  // namespace
@@ -316,22 +360,10 @@ const std::vector<Bar>& study_bars() {
       {"rounded_wrong", "the same: wrong cause named", 0.03, false, rounded, is_wrong},
       {"odd_named", "a few points misread: a cause named", 0.03, false, in(Arm::odd),
        names_a_cause},
-      {"odd_found",
-       "points misread by more than 5 standard deviations: set aside",
-       0.95,
-       true,
-       in(Arm::odd),
-       {},
-       &Answered::odd_found,
-       &Answered::odd},
-      {"odd_accused",
-       "the points beside them: set aside",
-       0.01,
-       false,
-       in(Arm::odd),
-       {},
-       &Answered::accused,
-       &Answered::right}};
+      points_bar("odd_found", "points misread by more than 5 standard deviations: set aside", 0.95,
+                 true, &Answered::odd_found, &Answered::odd),
+      points_bar("odd_accused", "the points beside them: set aside", 0.01, false,
+                 &Answered::accused, &Answered::right)};
   return bars;
 }
 
@@ -360,14 +392,13 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   tally.powers = powers_of(answers);
   tally.confusion = confusion_of(answers);
   tally.alarms = alarms_of(answers);
-  tally.errors_told_astray =
-      count(those(answers, seen(Arm::effect)), [](const Answered& a) { return a.errors_told; });
+  tally.errors_told_astray = count(those(answers, seen(Arm::effect)), tells_of_errors);
   tally.times = times_of(answers);
   tally.loop = loop_of(answers);
   for (const Answered& a : answers) {
     if (a.reached && a.status != 0) {
-      tally.complaints.push_back(a.order.key() + ": exit status " + std::to_string(a.status) +
-                                 ": " + a.complaint);
+      tally.complaints.push_back(
+          fmt::format("{}: exit status {}: {}", a.order.key(), a.status, a.complaint));
     }
   }
   tally.unreached = unreached_of(answers);
@@ -375,41 +406,4 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   return tally;
 }
 
-Confusion confusion_of(const std::vector<Answered>& answers) {
-  Confusion c;
-  std::vector<std::string> ids;
-  for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.kind == EffectKind::careless) continue;
-    c.rows.emplace_back(effect.id);
-    if (effect.kind != EffectKind::outside) ids.emplace_back(effect.id);
-  }
-  c.rows.emplace_back("nothing");
-  c.columns = ids;
-  const std::vector<Mark> others = {Mark::inside,  Mark::outside,   Mark::unexplained,
-                                    Mark::nothing, Mark::resembled, Mark::failed};
-  for (const Mark mark : others) c.columns.emplace_back(name_of(mark));
-  c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
-  const auto index = [](const std::vector<std::string>& list, std::string_view word) {
-    return static_cast<std::size_t>(std::find(list.begin(), list.end(), word) - list.begin());
-  };
-  for (const Answered& a : answers) {
-    const Arm arm = arm_of(a.order);
-    const bool exact = arm == Arm::effect || arm == Arm::correct || arm == Arm::outside;
-    if (!a.reached || !exact) continue;
-    if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
-    const std::size_t row =
-        index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());
-    const Mark mark = mark_of(a);
-    if (std::find(others.begin(), others.end(), mark) != others.end()) {
-      ++c.counts[row][index(c.columns, name_of(mark))];
-      continue;
-    }
-    for (const std::string& name : a.named) {
-      const std::size_t column = index(c.columns, name);
-      if (column < c.columns.size()) ++c.counts[row][column];
-    }
-  }
-  return c;
-}
-
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -11,9 +11,9 @@
 #include "core/names.hpp"
 #include "validation/studies/diagnosis_answer.hpp"
 #include "validation/studies/hidden_effects_plan.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// Rows: what was hidden (visible effects in designs of several diameters). Columns: what was
 /// answered.
@@ -23,7 +23,6 @@ struct Confusion {
   std::vector<std::vector<int>> counts;
   RECOIL_FIELDS(rows, columns, counts)
 };
-Confusion confusion_of(const std::vector<Answered>& answers);
 
 /// So many of so many.
 struct Count {
@@ -128,12 +127,12 @@ struct MethodRow {
 
 /// All that the page and the picture of the study show.
 struct StudyTally {
-  recoil::StudyStamp stamp;
+  StudyStamp stamp;
   std::uint64_t seed = 0;
   int planned = 0;
   int tried = 0;
-  int made = 0;               ///< of the tried: the wanted strength exists
-  recoil::Named<Count> bars;  ///< by the id of the bar
+  int made = 0;       ///< of the tried: the wanted strength exists
+  Named<Count> bars;  ///< by the id of the bar
   NotNamed not_named;
   std::vector<RivalRow> rivals;
   std::vector<PowerRow> powers;
@@ -141,10 +140,10 @@ struct StudyTally {
   std::vector<AlarmRow> alarms;
   Count errors_told_astray;  ///< told of unstated errors where a visible effect is hidden
   std::optional<Times> times;
-  recoil::OrAbsent<LoopEffort> loop;
+  OrAbsent<LoopEffort> loop;
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
-  recoil::OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
+  OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
   RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, rivals, powers, confusion, alarms,
                 errors_told_astray, times, loop, complaints, unreached, methods)
 
@@ -155,4 +154,9 @@ struct StudyTally {
 StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
                     const StudySize& size);
 
-}  // namespace hidden
+Document page_of(const StudyTally& tally);
+
+/// Power against strength, and the confusion matrix, as one picture.
+plot::Picture picture_of(const StudyTally& tally);
+
+}  // namespace recoil::hidden

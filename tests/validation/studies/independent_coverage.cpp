@@ -1,66 +1,49 @@
 #include "validation/studies/independent_coverage.hpp"
 
-#include <map>
-#include <memory>
 #include <set>
-#include <string>
 
 #include "core/error.hpp"
-#include "validation/recipe/plan.hpp"
+#include "validation/recipe/recipe.hpp"
 #include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
 namespace {
 
-struct KnownRecipe {
-  Recipe recipe;
-  std::map<std::string, double> parameters;
-};
-
 /// The recipes of all datasets, or nothing when one has none or another model.
-std::vector<KnownRecipe> known_recipes(const std::vector<Dataset>& datasets) {
-  std::vector<KnownRecipe> recipes;
+std::vector<Recipe> known_recipes(const std::vector<Dataset>& datasets) {
+  std::vector<Recipe> recipes;
   for (const Dataset& dataset : datasets) {
     if (!std::filesystem::exists(dataset.folder / "recipe.toml")) return {};
-    Recipe recipe = load_recipe(dataset.folder);
-    if (recipe.sizes) return {};  // mixed sizes: not the model of a fit
-    std::map<std::string, double> parameters = true_parameters(recipe);
-    if (parameters.empty()) return {};
-    recipes.push_back({std::move(recipe), std::move(parameters)});
+    recipes.push_back(load_recipe(dataset.folder));
+    // Mixed sizes are not the model of a fit, either.
+    if (recipes.back().sizes || !has_model_of_fit(recipes.back())) return {};
   }
   return recipes;
 }
 
 CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                           std::vector<KnownRecipe> recipes, std::uint64_t seed) {
+                           const std::vector<Recipe>& recipes, std::uint64_t seed) {
   CoverageTruth truth;
   truth.origin = TruthOrigin::recipe;
   const ImpactModel model = make_model(spec, datasets);
   truth.theta = model.initial();
-  std::vector<Truth> truths;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
-    truth.theta[model.slot_C_H[d]] = recipes[d].parameters.at("C_H");
-    truth.theta[model.slot_C_A[d]] = recipes[d].parameters.at("C_A");
-    truth.theta[model.slot_adhesion[d]] = recipes[d].parameters.at("f0");
-    truths.push_back(recipes[d].recipe.truth);
+    const Truth& known = recipes[d].truth;
+    truth.theta[model.slot_C_H[d]] = known.C_H;
+    truth.theta[model.slot_C_A[d]] = known.C_A;
+    truth.theta[model.slot_adhesion[d]] = known.adhesion_force;
     for (const double diameter : distinct_diameters(datasets[d])) {
-      truth.capture.push_back({diameter, true_capture_velocity(truths[d], diameter)});
+      truth.capture.push_back({diameter, true_capture_velocity(known, diameter)});
     }
   }
-  const auto shared = std::make_shared<const std::vector<KnownRecipe>>(std::move(recipes));
-  truth.simulate = [datasets, shared, seed, model, theta = truth.theta](std::uint64_t index) {
-    std::vector<Truth> drawn;
-    if (!model.constants.empty()) {
-      const auto with_constants = with_drawn_constants(model, theta, seed, index);
-      for (std::size_t d = 0; d < datasets.size(); ++d) {
-        drawn.push_back(truth_at(model, with_constants, d));
-      }
-    }
+  truth.simulate = [datasets, recipes, seed, model, theta = truth.theta](std::uint64_t index) {
+    std::vector<double> drawn;
+    if (!model.constants.empty()) drawn = with_drawn_constants(model, theta, seed, index);
     std::vector<Dataset> made;
     for (std::size_t d = 0; d < datasets.size(); ++d) {
-      Recipe recipe = (*shared)[d].recipe;
+      Recipe recipe = recipes[d];
       if (!drawn.empty()) {
-        recipe.truth = drawn[d];
+        recipe.truth = truth_at(model, drawn, d);
         recipe.plan = make_plan(recipe);
       }
       made.push_back(regenerate(datasets[d], recipe, seed + 1 + index));
@@ -120,11 +103,10 @@ TrueImpacts independent_impacts(const ImpactModel& model) {
 CoverageTruth independent_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                                 std::uint64_t seed) {
   // Recipes have the ring law's truth.
-  std::vector<KnownRecipe> recipes;
   if (spec.adhesion == AdhesionLaw::ring && spec.mechanisms.empty()) {
-    recipes = known_recipes(datasets);
+    const std::vector<Recipe> recipes = known_recipes(datasets);
+    if (!recipes.empty()) return from_recipes(spec, datasets, recipes, seed);
   }
-  if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
   return coverage_truth(spec, datasets, seed, independent_impacts);
 }
 

@@ -7,7 +7,7 @@
 #include "core/names.hpp"
 #include "document/document.hpp"
 #include "experiment/pairing.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 
@@ -46,21 +46,6 @@ struct PairingStudy {
 /// Streams against crowding, against the number of spheres, and with worse instruments.
 PairingStudy study_pairing();
 
-/// What is asked of the pairing at the rates that are taken for the paper's.
-struct PairingBar {
-  static constexpr double highest_rate = 10.0;  ///< [1/s]
-  static constexpr double pure = 0.99;
-  static constexpr double efficient = 0.95;
-  int rows = 0;
-  double worst_purity = 1.0;
-  double worst_first_purity = 1.0;
-  double worst_efficiency = 1.0;
-  std::string least_efficient;
-
-  bool passed() const { return worst_purity >= pure && worst_efficiency >= efficient; }
-};
-PairingBar bar_of(const PairingStudy& study);
-
-Document pairing_page(const PairingStudy& study);
+Document page_of(const PairingStudy& study);
 
 }  // namespace recoil

@@ -11,7 +11,7 @@
 #include "core/resumable.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/posterior.hpp"
-#include "validation/studies/study_tables.hpp"
+#include "validation/studies/study.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {
@@ -26,15 +26,6 @@ constexpr double density_sd = 0.05, modulus_sd = 0.10;  // relative
 constexpr double event_spread = 0.08;                   // of the velocity, from impact to impact
 constexpr int events = 20;
 constexpr double diameters[] = {2.58e-6, 4.9e-6};  // [m]
-
-Dataset sphere_and_target(RankArm arm) {
-  Dataset data = fluorescein_on_molybdenum();
-  if (arm == RankArm::uncertain_constants) {
-    data.system.errors = {{Body::particle, Constant::density, density_sd * 1350.0},
-                          {Body::particle, Constant::youngs_modulus, modulus_sd * 1.2e9}};
-  }
-  return data;
-}
 
 FitSpec spec_of(RankArm arm) {
   FitSpec spec;
@@ -56,16 +47,10 @@ FitSpec spec_of(RankArm arm) {
 
 /// K and f0 from the recipes' own equations.
 Truth truth_with(double C_H, double C_A, double density, double modulus) {
-  Dataset data = fluorescein_on_molybdenum();
-  data.system.particle.density = density;
-  data.system.particle.youngs_modulus = modulus;
-  const DerivedContact contact = derive_recipe_contact(data.system.particle, data.system.surface);
-  Truth truth;
-  truth.density = density;
-  truth.stiffness = contact.stiffness;
-  truth.reference_diameter = *data.system.reference_diameter;
-  truth.adhesion_force =
-      recipe_adhesion_force(contact.stiffness, contact.adhesion_energy, truth.reference_diameter);
+  ImpactSystem system = fluorescein_on_molybdenum().system;
+  system.particle.density = density;
+  system.particle.youngs_modulus = modulus;
+  Truth truth = undamped_truth(system.particle, system.surface, *system.reference_diameter);
   truth.C_H = C_H;
   truth.C_A = C_A;
   return truth;
@@ -104,7 +89,11 @@ Dataset made_data(RankArm arm, const Truth& truth, RandomStream& random) {
   // Log-uniform over a factor of 4: posteriors with the prior 1 / scale are calibrated at any.
   const double sd =
       arm == RankArm::estimated_noise ? 0.005 * std::pow(4.0, random.uniform()) : 0.01;
-  Dataset data = sphere_and_target(arm);
+  Dataset data = fluorescein_on_molybdenum();
+  if (arm == RankArm::uncertain_constants) {
+    data.system.errors = {{Body::particle, Constant::density, density_sd * 1350.0},
+                          {Body::particle, Constant::youngs_modulus, modulus_sd * 1.2e9}};
+  }
   for (const double diameter : diameters) {
     const double capture = true_capture_velocity(middle, diameter);
     data.series.push_back(fmt::format("{}", data.series.size()));
@@ -128,8 +117,47 @@ Dataset made_data(RankArm arm, const Truth& truth, RandomStream& random) {
   return data;
 }
 
-std::size_t piece_of(std::size_t arm, int index, int sets) {
-  return arm * static_cast<std::size_t>(sets) + static_cast<std::size_t>(index);
+std::vector<std::string> rank_parameters(RankArm arm) {
+  if (arm != RankArm::uncertain_constants) return {"C_H", "C_A"};
+  return {"C_H", "C_A", "density", "Young's modulus"};
+}
+
+/// The rank of every parameter that moves in data set `index` of an arm, in the order of
+/// `rank_parameters`; empty where the posterior did not settle. The parameters are drawn from the
+/// prior, the data by the simulator that shares no code with the fitter.
+std::vector<double> ranks_of(RankArm arm, std::uint64_t index, std::uint64_t seed, int threads) {
+  const std::uint64_t stream = 1000000 * static_cast<std::uint64_t>(arm) + index;
+  RandomStream random(seed, rank_purpose, stream);
+  std::vector<double> truth = {lower_C_H + (upper_C_H - lower_C_H) * random.uniform(),
+                               lower_C_A + (upper_C_A - lower_C_A) * random.uniform()};
+  double density = 1350.0, modulus = 1.2e9;
+  if (arm == RankArm::uncertain_constants) {
+    density *= std::exp(std::sqrt(std::log1p(density_sd * density_sd)) * random.normal());
+    modulus *= std::exp(std::sqrt(std::log1p(modulus_sd * modulus_sd)) * random.normal());
+    truth.insert(truth.end(), {density, modulus});
+  }
+  const Dataset data = made_data(arm, truth_with(truth[0], truth[1], density, modulus), random);
+  const FitSpec spec = spec_of(arm);
+  const FitResult fitted = fit(make_model(spec, {data}), gather({data}, spec));
+  if (!fitted.usable) return {};
+  PosteriorOptions options;
+  options.seed = seed + stream;
+  options.threads = threads;
+  const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, options);
+  if (!found.available()) return {};
+  std::vector<double> ranks;
+  std::size_t slot = 0;
+  for (const double value : truth) {
+    while (!fitted.model.slots[slot].moves()) ++slot;
+    double rank = 0.0;
+    const std::size_t step = found.draws.size() / (rank_draws + 1);
+    for (std::size_t k = 1; k <= rank_draws; ++k) {
+      rank += found.draws[k * step][slot] < value ? 1.0 : 0.0;
+    }
+    ranks.push_back(rank);
+    ++slot;
+  }
+  return ranks;
 }
 
 /// The two-sided probabilities of `count` of `sets` data sets at rank i or less.
@@ -184,46 +212,6 @@ Dataset fluorescein_on_molybdenum() {
   return data;
 }
 
-std::vector<std::string> rank_parameters(RankArm arm) {
-  if (arm != RankArm::uncertain_constants) return {"C_H", "C_A"};
-  return {"C_H", "C_A", "density", "Young's modulus"};
-}
-
-std::vector<double> ranks_of(RankArm arm, std::uint64_t index, std::uint64_t seed, int threads) {
-  const std::uint64_t stream = 1000000 * static_cast<std::uint64_t>(arm) + index;
-  RandomStream random(seed, rank_purpose, stream);
-  std::vector<double> truth = {lower_C_H + (upper_C_H - lower_C_H) * random.uniform(),
-                               lower_C_A + (upper_C_A - lower_C_A) * random.uniform()};
-  double density = 1350.0, modulus = 1.2e9;
-  if (arm == RankArm::uncertain_constants) {
-    density *= std::exp(std::sqrt(std::log1p(density_sd * density_sd)) * random.normal());
-    modulus *= std::exp(std::sqrt(std::log1p(modulus_sd * modulus_sd)) * random.normal());
-    truth.insert(truth.end(), {density, modulus});
-  }
-  const Dataset data = made_data(arm, truth_with(truth[0], truth[1], density, modulus), random);
-  const FitSpec spec = spec_of(arm);
-  const FitResult fitted = fit(make_model(spec, {data}), gather({data}, spec));
-  if (!fitted.usable) return {};
-  PosteriorOptions options;
-  options.seed = seed + stream;
-  options.threads = threads;
-  const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, options);
-  if (!found.available()) return {};
-  std::vector<double> ranks;
-  std::size_t slot = 0;
-  for (const double value : truth) {
-    while (!fitted.model.slots[slot].moves()) ++slot;
-    double rank = 0.0;
-    const std::size_t step = found.draws.size() / (rank_draws + 1);
-    for (std::size_t k = 1; k <= rank_draws; ++k) {
-      rank += found.draws[k * step][slot] < value ? 1.0 : 0.0;
-    }
-    ranks.push_back(rank);
-    ++slot;
-  }
-  return ranks;
-}
-
 RankStudy study_ranks(int sets, std::uint64_t seed, int threads, const std::string& kept) {
   RankStudy study;
   study.sets = sets;
@@ -242,19 +230,21 @@ RankStudy study_ranks(int sets, std::uint64_t seed, int threads, const std::stri
     resumable(pieces, rows);
     return 0;
   });
-  for (std::size_t a = 0; a < rank_arms.size(); ++a) {
-    const std::vector<std::string> names = rank_parameters(rank_arms[a]);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      RankRow row = {rank_arms[a], names[k], 0, {}};
-      for (int i = 0; i < sets; ++i) {
-        const std::vector<double> ranks = row_numbers(*rows.find(piece_of(a, i, sets)));
+  std::size_t piece = 0;
+  for (const RankArm arm : rank_arms) {
+    const std::vector<std::string> names = rank_parameters(arm);
+    const std::size_t first = study.rows.size();
+    for (const std::string& name : names) study.rows.push_back({arm, name, 0, {}});
+    for (int i = 0; i < sets; ++i) {
+      const std::vector<double> ranks = row_numbers(*rows.find(piece++));
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        RankRow& row = study.rows[first + k];
         if (ranks.empty()) {
           ++row.unsettled;
         } else {
           row.ranks.push_back(static_cast<int>(ranks[k]));
         }
       }
-      study.rows.push_back(std::move(row));
     }
   }
   return study;
@@ -288,7 +278,7 @@ double rank_p_value(const std::vector<int>& ranks, const RankBand& band) {
   return static_cast<double>(at - band.least.begin()) / static_cast<double>(band.least.size());
 }
 
-plot::Picture rank_picture(const RankStudy& study) {
+plot::Picture picture_of(const RankStudy& study) {
   plot::Picture picture;
   picture.name = "posterior-ranks";
   picture.title = "Ranks of the truth among draws of the posterior";
@@ -338,7 +328,7 @@ plot::Picture rank_picture(const RankStudy& study) {
   return picture;
 }
 
-Document rank_page(const RankStudy& study) {
+Document page_of(const RankStudy& study) {
   Document page;
   page.heading = "Does the posterior hold what it promises?";
   page.foreword = {Paragraph{say(

@@ -8,7 +8,7 @@
 #include "data/dataset.hpp"
 #include "document/document.hpp"
 #include "plot/plot.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 
@@ -19,8 +19,7 @@ struct NamesOf<RankArm> {
   static constexpr std::array<std::string_view, 4> names = {"stated_noise", "estimated_noise",
                                                             "captures", "uncertain_constants"};
 };
-inline constexpr std::array rank_arms = {RankArm::stated_noise, RankArm::estimated_noise,
-                                         RankArm::captures, RankArm::uncertain_constants};
+inline constexpr std::array rank_arms = values_of<RankArm>();
 
 /// Ammonium fluorescein on molybdenum (Li, Dunn & Brach 1999, Table 1), without points.
 Dataset fluorescein_on_molybdenum();
@@ -45,12 +44,6 @@ struct RankStudy {
   RECOIL_FIELDS(sets, seed, rows)
 };
 
-/// The rank of every parameter that moves in data set `index` of an arm, in the order of
-/// `rank_parameters`; empty where the posterior did not settle. The parameters are drawn from the
-/// prior, the data by the simulator that shares no code with the fitter.
-std::vector<double> ranks_of(RankArm arm, std::uint64_t index, std::uint64_t seed, int threads);
-std::vector<std::string> rank_parameters(RankArm arm);
-
 /// Simulation-based calibration (Talts, Betancourt, Simpson, Vehtari & Gelman 2018,
 /// arXiv:1804.06788): where data come from the prior and the model, the ranks are uniform.
 /// @param kept a folder for what is finished; empty: nowhere
@@ -67,7 +60,7 @@ RankBand rank_band(int sets);
 /// The share of uniform samples that are as far from uniform.
 double rank_p_value(const std::vector<int>& ranks, const RankBand& band);
 
-Document rank_page(const RankStudy& study);
-plot::Picture rank_picture(const RankStudy& study);
+Document page_of(const RankStudy& study);
+plot::Picture picture_of(const RankStudy& study);
 
 }  // namespace recoil

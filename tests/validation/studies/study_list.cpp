@@ -9,19 +9,18 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
 
-Study grid_study(const std::string& name, const std::string& designs, int datasets) {
-  return {"coverage-grid-" + name,
-          fmt::format("coverage-grid fits/wall1990-molybdenum.toml --designs {} --datasets {} "
+Study grid_study(int points, const std::string& noise, int datasets) {
+  return {fmt::format("coverage-grid-n{}-{}", points, noise),
+          fmt::format("coverage-grid fits/wall1990-molybdenum.toml --designs n{},{} --datasets {} "
                       "--replicates 39",
-                      designs, datasets),
-          "reports/coverage-grid-" + name + ".json"};
+                      points, noise, datasets)};
 }
 
 Study designs_study(const std::string& name, const std::string& options) {
@@ -29,8 +28,7 @@ Study designs_study(const std::string& name, const std::string& options) {
           "coverage-designs fits/wall1990-molybdenum.toml fits/wall1990-silicon.toml "
           "fits/wall1990-mica.toml fits/dahneke1975-quartz.toml fits/li1999-sst65-silicon.toml "
           "fits/li1999-sst125-silicon.toml --datasets 1000 --replicates 99" +
-              options,
-          "reports/" + name + ".json"};
+              options};
 }
 
 /// The end of the string or character literal that begins at `begin`; one past its last character.
@@ -68,20 +66,18 @@ const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = {
       designs_study("coverage-designs", ""),
       designs_study("coverage-designs-exact", " --exact-materials"),
-      grid_study("n10-stated", "n10,stated", 1000),
-      grid_study("n20-stated", "n20,stated", 1000),
-      grid_study("n60-stated", "n60,stated", 1000),
-      grid_study("n10-estimated", "n10,estimated", 200),
-      grid_study("n20-estimated", "n20,estimated", 200),
-      grid_study("n60-estimated", "n60,estimated", 200),
-      {"coverage-noise", "coverage-noise --datasets 200 --replicates 39",
-       "reports/coverage-noise.json"},
+      grid_study(10, "stated", 1000),
+      grid_study(20, "stated", 1000),
+      grid_study(60, "stated", 1000),
+      grid_study(10, "estimated", 200),
+      grid_study(20, "estimated", 200),
+      grid_study(60, "estimated", 200),
+      {"coverage-noise", "coverage-noise --datasets 200 --replicates 39"},
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
-       "--impossible 2 --baseline --seed 20261123",
-       "reports/hidden-effects.json"},
-      {"posterior-ranks", "posterior-ranks --datasets 400", "reports/posterior-ranks.json"},
-      {"pairing", "pairing", "reports/pairing.json"},
+       "--impossible 2 --baseline --seed 20261123"},
+      {"posterior-ranks", "posterior-ranks --datasets 400"},
+      {"pairing", "pairing"},
   };
   return studies;
 }
@@ -149,7 +145,7 @@ std::string study_key(const fs::path& root, const std::string& command) {
 }
 
 StudyState state_of(const fs::path& root, const Study& study) {
-  const fs::path file = root / study.result;
+  const fs::path file = root / study.result();
   if (!fs::exists(file)) return StudyState::missing;
   const auto json = nlohmann::ordered_json::parse(read_text_file(file), nullptr, false);
   if (json.is_discarded() || !json.is_object()) return StudyState::stale;

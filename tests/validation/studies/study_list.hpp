@@ -5,13 +5,17 @@
 #include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
+
 namespace recoil {
 
 /// One of the studies whose results are committed.
 struct Study {
   std::string name;
   std::string command;  ///< words of recoil_study
-  std::string result;   ///< the JSON that it leaves, from the project's folder
+
+  /// The JSON that it leaves, from the project's folder.
+  std::string result() const { return "reports/" + name + ".json"; }
 };
 
 const std::vector<Study>& all_studies();
@@ -34,6 +38,18 @@ enum class StudyState {
   stale,  ///< made from other sources, fits or data than those that are there
   current
 };
+template <>
+struct NamesOf<StudyState> {
+  static constexpr std::array<std::string_view, 3> names = {"missing", "stale", "current"};
+};
 StudyState state_of(const std::filesystem::path& root, const Study& study);
+
+/// Writes NAME.md, and NAME.svg where there is a picture, beside the study NAME.json.
+/// @throws InputError when the file is not the result of a study that has a page
+void render_study(const std::filesystem::path& json);
+
+/// Writes coverage.md and coverage.svg beside the studies coverage-*.json of `folder`.
+/// @throws InputError when there is none
+void write_coverage_summary(const std::filesystem::path& folder);
 
 }  // namespace recoil

@@ -1,5 +1,3 @@
-#include "validation/studies/study_pages.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,23 +8,38 @@
 #include "core/files.hpp"
 #include "plot/draw.hpp"
 #include "validation/studies/coverage_page.hpp"
-#include "validation/studies/coverage_picture.hpp"
-#include "validation/studies/hidden_effects_page.hpp"
+#include "validation/studies/hidden_effects_tally.hpp"
 #include "validation/studies/markdown.hpp"
 #include "validation/studies/pairing_study.hpp"
 #include "validation/studies/rank_study.hpp"
-#include "validation/studies/study_stamp.hpp"
+#include "validation/studies/study.hpp"
+#include "validation/studies/study_list.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
 
-void write_page(const fs::path& json, const Document& page,
-                const std::optional<plot::Picture>& picture = {}) {
+template <class Result>
+constexpr bool has_picture = requires(const Result& study) {
+  picture_of(study);
+};
+
+void write_page(const fs::path& json, const Document& page) {
   fs::path file = json;
   write_whole_file(file.replace_extension(".md"), markdown_page(page), Replacing::data);
-  if (picture) write_whole_file(file.replace_extension(".svg"), plot::draw_svg(*picture) + "\n");
+}
+
+void write_picture(const fs::path& json, const plot::Picture& picture) {
+  fs::path file = json;
+  write_whole_file(file.replace_extension(".svg"), plot::draw_svg(picture) + "\n");
+}
+
+template <class Result>
+void render(const fs::path& json, const char* what, const char* required) {
+  const auto study = read_study<Result>(json, what, required);
+  write_page(json, page_of(study));
+  if constexpr (has_picture<Result>) write_picture(json, picture_of(study));
 }
 
 }  // namespace
@@ -35,18 +48,14 @@ void render_study(const fs::path& json) {
   const std::string name = json.stem().string();
   if (name.starts_with("coverage-")) {
     const CoverageStudy study = read_coverage_study(json);
-    const bool grid = study.grid_of.has_value();
-    write_page(json, coverage_page(study, grid ? name : ""),
-               grid ? std::optional(coverage_picture(study)) : std::nullopt);
+    write_page(json, page_of(study));
+    if (study.grid_of) write_picture(json, coverage_picture(study));
   } else if (name == "pairing") {
-    write_page(json, pairing_page(read_study<PairingStudy>(json, "study of the pairing", "rows")));
+    render<PairingStudy>(json, "study of the pairing", "rows");
   } else if (name == "posterior-ranks") {
-    const RankStudy study = read_study<RankStudy>(json, "study of the posterior", "rows");
-    write_page(json, rank_page(study), rank_picture(study));
+    render<RankStudy>(json, "study of the posterior", "rows");
   } else if (name == "hidden-effects") {
-    const hidden::StudyTally tally =
-        read_study<hidden::StudyTally>(json, "study of hidden effects", "bars");
-    write_page(json, hidden::hidden_effects_page(tally), hidden::hidden_effects_picture(tally));
+    render<hidden::StudyTally>(json, "study of hidden effects", "bars");
   } else {
     throw InputError({json.string()}, "no page is made from this file",
                      "its name is that of no study with a page",
@@ -79,12 +88,13 @@ void write_coverage_summary(const fs::path& folder) {
     }
   }
   const double level = studies.front().level;
-  write_page(folder / "coverage.json", coverage_summary(studies, "coverage"),
-             coverage_picture(recommended, level,
-                              fmt::format("Coverage of the recommended {:g} % intervals by kind of "
-                                          "data",
-                                          100.0 * level),
-                              "made from the studies coverage-*.json"));
+  write_page(folder / "coverage", coverage_summary(studies));
+  write_picture(folder / "coverage",
+                coverage_picture(recommended, level,
+                                 fmt::format("Coverage of the recommended {:g} % intervals by kind "
+                                             "of data",
+                                             100.0 * level),
+                                 "made from the studies coverage-*.json"));
 }
 
 }  // namespace recoil

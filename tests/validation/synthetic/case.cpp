@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "validation/synthetic/observed_mean.hpp"
-#include "validation/synthetic/other_laws.hpp"
+#include "validation/synthetic/effects.hpp"
+#include "validation/synthetic/sphere.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 /// FNV-1a (Fowler, Noll & Vo): the same number for a text on every machine.
@@ -30,12 +30,12 @@ std::string joined(const std::vector<std::string>& effects) {
 
 /// What the table says of a point: the mean of its events, that came at another velocity than the
 /// printed one if that is uncertain.
-double reading_of(const Case& made, const Point& p, recoil::RandomStream& random) {
+double reading_of(const Case& made, const Point& p, RandomStream& random) {
   const double scatter = made.effects.velocity_scatter;
   const Effects effects = under(p.changed, made.effects);
   double set = p.velocity;
   if (effects.height_scatter > 0.0) {
-    recoil::RandomStream own(made.order.experiment_seed(), hidden_purpose, 1000000 + p.setting);
+    RandomStream own(made.order.experiment_seed(), hidden_purpose, 1000000 + p.setting);
     set *= std::sqrt(std::max(1.0 + effects.height_scatter * own.normal(), 0.5));
   }
   double reading = 0.0;
@@ -49,7 +49,7 @@ double reading_of(const Case& made, const Point& p, recoil::RandomStream& random
 }
 
 /// A misreading of 6 to 15 standard deviations, or none.
-double misreading(const Case& made, const Point& p, recoil::RandomStream& random) {
+double misreading(const Case& made, const Point& p, RandomStream& random) {
   const bool odd = random.uniform() < made.effects.odd_share;
   const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
   const double size = p.sd * (6.0 + 9.0 * random.uniform());
@@ -64,9 +64,9 @@ std::string CaseOrder::key() const {
   if (base_bend > 0.0) bends += fmt::format("~base{:g}%", 100.0 * base_bend);
   if (beyond > 0.0) bends += fmt::format("*{:g}", beyond);
   if (circumstances != Circumstances::unstated) {
-    bends += fmt::format("|{}", recoil::name_of(circumstances));
+    bends += fmt::format("|{}", name_of(circumstances));
   }
-  if (readout != Readout::exact) bends += fmt::format("/{}", recoil::name_of(readout));
+  if (readout != Readout::exact) bends += fmt::format("/{}", name_of(readout));
   const std::string again = rounds > 0 ? fmt::format("^{}", rounds) : "";
   return fmt::format("{}{}{}@{:g}#{}{}", design, joined(effects), bends, signal_to_noise, index,
                      again);
@@ -151,7 +151,7 @@ Case make_case(const CaseOrder& order) {
   // Readings of different strengths have noise of their own.
   const std::uint64_t readings_seed = number_of(order.key(), seed);
   for (std::size_t i = 0; i < made.points.size(); ++i) {
-    recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
+    RandomStream random(readings_seed, hidden_purpose, 100 + i);
     const Point& point = made.points[i];
     const double right =
         rounded(made.design.readout, point.velocity, reading_of(made, point, random));
@@ -162,4 +162,4 @@ Case make_case(const CaseOrder& order) {
   return made;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -9,7 +9,7 @@
 #include "validation/synthetic/hidden_effect.hpp"
 #include "validation/synthetic/strength.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// What the table says of the conditions.
 enum class Circumstances {
@@ -30,7 +30,7 @@ struct CaseOrder {
   /// Above 0: the one effect at so many times the largest strength that nature has.
   double beyond = 0.0;
   Circumstances circumstances = Circumstances::unstated;
-  bool other_law = false;  ///< the effects follow second published laws (other_laws.hpp)
+  bool other_law = false;  ///< the effects follow second published laws (sphere.hpp)
   int rounds = 0;  ///< how often the first of what the answer advises is done, and asked again
   /// Of drops. The deviations of two data sets in four state what it does.
   Readout readout = Readout::exact;
@@ -60,17 +60,47 @@ struct Case {
   std::vector<bool> odd;                    ///< misread by more than 5 standard deviations [points]
 };
 
-/// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the
-/// readings.
+/// Draws the experiment and its nuisances, tunes every effect by itself to the wanted misfit, and
+/// takes the readings.
 /// @throws std::invalid_argument for an unknown design or effect
 Case make_case(const CaseOrder& order);
 
 /// A name that is different for every order and says nothing.
 std::string neutral_name(const CaseOrder& order);
 
-}  // namespace hidden
+/// Impacts of one size at one velocity that are measured after a first answer.
+struct FurtherImpacts {
+  double diameter = 0.0;    ///< [m]
+  double velocity = 0.0;    ///< [m/s]
+  int events = 0;           ///< all of them
+  StatedCondition changed;  ///< the condition that differs; its name is empty if none does
+  RECOIL_FIELDS(diameter, velocity, events, changed)
+};
+
+/// Measures them: one point with their mean, its noise drawn by `round`. A diameter that no row has
+/// makes a row.
+void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round);
+
+/// Writes what the diagnosis may see into `folder`: the dataset NAME/ and the fit NAME.toml beside
+/// it; NAME says nothing. @return the path of the fit
+std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder);
+
+/// A folder of its own below the system's temporary one, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace recoil::hidden
 
 template <>
-struct recoil::NamesOf<hidden::Circumstances> {
+struct recoil::NamesOf<recoil::hidden::Circumstances> {
   static constexpr std::array<std::string_view, 3> names = {"unstated", "stated", "varied"};
 };

@@ -1,19 +1,17 @@
-#include "validation/synthetic/case_files.hpp"
-
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "validation/synthetic/case.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
-
-using recoil::Json;
 
 /// As a table prints it: `digits` significant digits, never 1.2e+01.
 std::string printed(double value, int digits) {
@@ -151,13 +149,22 @@ std::string fit_text(const Case& made, const std::string& dataset) {
 
 std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder) {
   const std::string name = neutral_name(made.order);
-  recoil::write_whole_file(folder / name / "datapackage.json", package_text(made, name),
-                           recoil::Replacing::data);
-  recoil::write_whole_file(folder / name / "points.csv", points_text(made),
-                           recoil::Replacing::data);
+  write_whole_file(folder / name / "datapackage.json", package_text(made, name), Replacing::data);
+  write_whole_file(folder / name / "points.csv", points_text(made), Replacing::data);
   const std::filesystem::path fit = folder / (name + ".toml");
-  recoil::write_whole_file(fit, fit_text(made, name));
+  write_whole_file(fit, fit_text(made, name));
   return fit;
 }
 
-}  // namespace hidden
+ScratchFolder::ScratchFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "impacts-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = pattern;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace recoil::hidden

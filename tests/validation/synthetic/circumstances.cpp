@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 /// Relative humidity over which a meniscus of water at 293.15 K has this radius (Thomson 1871).
@@ -79,4 +79,4 @@ Effects under(const StatedCondition& condition, Effects effects) {
   return effects;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

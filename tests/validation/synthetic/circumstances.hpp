@@ -6,7 +6,7 @@
 #include "core/json.hpp"
 #include "validation/synthetic/effects.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// A condition as a table states it, in SI.
 struct StatedCondition {
@@ -28,4 +28,4 @@ StatedCondition change_against(const std::string& effect);
 /// What is left of `effects` under a changed condition.
 Effects under(const StatedCondition& condition, Effects effects);
 
-}  // namespace hidden
+}  // namespace recoil::hidden

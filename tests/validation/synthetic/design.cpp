@@ -6,19 +6,37 @@
 
 #include "core/random.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
-struct Surface {
+struct Body {
   const char* name;
-  double modulus, ratio, density;
-  double adhesion_force;     ///< f0 of ammonium fluorescein on it at 4.9 um [N/m]
+  double density, modulus, ratio;
+};
+constexpr Body silicon{"silicon [100]", 2330.0, 131e9, 0.28};
+
+/// A target of ammonium fluorescein.
+struct Target {
+  Body body;
+  double adhesion_force;     ///< f0 at 4.9 um [N/m]
   double adhesion_velocity;  ///< V_a there [m/s]
 };
 // Li, Dunn & Brach (1999), Table 1; handbook densities.
-constexpr Surface targets[] = {{"molybdenum", 320e9, 0.31, 10280.0, 8.90, 2.41},
-                               {"silicon [100]", 131e9, 0.28, 2330.0, 6.60, 1.67},
-                               {"mica", 90e9, 0.30, 2800.0, 5.81, 1.43}};
+constexpr Target targets[] = {{{"molybdenum", 10280.0, 320e9, 0.31}, 8.90, 2.41},
+                              {silicon, 6.60, 1.67},
+                              {{"mica", 2800.0, 90e9, 0.30}, 5.81, 1.43}};
+
+void set_bodies(Design& design, const Body& sphere, const Body& surface) {
+  design.sphere = sphere.name;
+  design.surface = surface.name;
+  Base& b = design.base;
+  b.density = sphere.density;
+  b.youngs_modulus = sphere.modulus;
+  b.poisson_ratio = sphere.ratio;
+  b.surface_modulus = surface.modulus;
+  b.surface_ratio = surface.ratio;
+  b.surface_density = surface.density;
+}
 
 struct Size {
   const char* name;
@@ -36,7 +54,7 @@ class Draw {
   std::uint64_t below(std::uint64_t n) { return stream_.below(n); }
 
  private:
-  recoil::RandomStream stream_;
+  RandomStream stream_;
 };
 
 Row make_row(Draw& draw, std::string name, double diameter, int points, double lowest,
@@ -47,16 +65,10 @@ Row make_row(Draw& draw, std::string name, double diameter, int points, double l
 }
 
 void fluorescein(Draw& draw, Design& design) {
-  const Surface& target = targets[draw.below(3)];
-  design.sphere = "ammonium fluorescein";
-  design.surface = target.name;
+  const Target& target = targets[draw.below(3)];
+  const double modulus = 1e7 * std::round(1e-7 * draw.between(1.1e9, 1.3e9));
+  set_bodies(design, {"ammonium fluorescein", 1350.0, modulus, 0.33}, target.body);
   Base& b = design.base;
-  b.density = 1350.0;
-  b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(1.1e9, 1.3e9));
-  b.poisson_ratio = 0.33;
-  b.surface_modulus = target.modulus;
-  b.surface_ratio = target.ratio;
-  b.surface_density = target.density;
   b.reference_diameter = 4.9e-6;
   b.adhesion_force = 0.01 * std::round(100.0 * target.adhesion_force * draw.log_between(0.9, 1.1));
   b.C_A = draw.between(0.08, 0.16) / target.adhesion_velocity;
@@ -65,16 +77,12 @@ void fluorescein(Draw& draw, Design& design) {
 
 void dropped_spheres(Draw& draw, Design& design) {
   const bool large = design.id == "balls";
+  const double modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 3.2e9));
+  set_bodies(design,
+             {large ? "polyoxymethylene" : "polyamide 6.6", large ? 1410.0 : 1140.0, modulus, 0.39},
+             {"steel", 7850.0, 210e9, 0.29});
   Base& b = design.base;
   design.dropped = true;
-  design.sphere = large ? "polyoxymethylene" : "polyamide 6.6";
-  design.surface = "steel";
-  b.density = large ? 1410.0 : 1140.0;
-  b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 3.2e9));
-  b.poisson_ratio = 0.39;
-  b.surface_modulus = 210e9;
-  b.surface_ratio = 0.29;
-  b.surface_density = 7850.0;
   b.reference_diameter = large ? 25e-3 : 6e-3;
   b.C_H = draw.log_between(0.03, 0.08);
   design.scatter = {0.004, 0.001, 0.0};
@@ -121,17 +129,9 @@ Design draw_design(std::string_view id, std::uint64_t seed) {
       }
     }
   } else if (id == "li") {
-    design.sphere = "316 stainless steel";
-    design.surface = "silicon [100]";
-    b.density = 7900.0;
-    b.youngs_modulus = 193e9;
-    b.poisson_ratio = 0.30;
-    b.surface_modulus = 131e9;
-    b.surface_ratio = 0.28;
-    b.surface_density = 2330.0;
+    set_bodies(design, {"316 stainless steel", 7900.0, 193e9, 0.30}, silicon);
     b.reference_diameter = 49e-6;
-    design.stiffness_K = 1e7 * std::round(1e-7 * draw.between(10.9e9, 11.9e9));
-    b.stated_stiffness = design.stiffness_K;
+    b.stated_stiffness = 1e7 * std::round(1e-7 * draw.between(10.9e9, 11.9e9));
     b.adhesion_force = std::round(draw.between(270.0, 306.0));
     b.C_A = draw.between(0.015, 0.030);
     b.C_H = draw.log_between(0.008, 0.030);
@@ -141,14 +141,9 @@ Design draw_design(std::string_view id, std::uint64_t seed) {
       design.rows.push_back(make_row(draw, size.name, size.diameter, 15, 0.08, 4.6));
     }
   } else if (id == "dahneke") {
-    design.sphere = "polystyrene latex";
-    design.surface = "fused quartz";
-    b.density = 1050.0;
-    b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 2.7e9));
-    b.poisson_ratio = 0.35;
-    b.surface_modulus = 73e9;
-    b.surface_ratio = 0.17;
-    b.surface_density = 2200.0;
+    const double modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 2.7e9));
+    set_bodies(design, {"polystyrene latex", 1050.0, modulus, 0.35},
+               {"fused quartz", 2200.0, 73e9, 0.17});
     b.reference_diameter = 1.27e-6;
     b.adhesion_force = 0.01 * std::round(100.0 * draw.between(5.2, 6.2));
     b.C_A = draw.log_between(2.5e-3, 5e-3);
@@ -271,4 +266,4 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
   return points;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

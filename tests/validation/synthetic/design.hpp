@@ -9,7 +9,7 @@
 #include "validation/synthetic/circumstances.hpp"
 #include "validation/synthetic/effects.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// One row of points in a table: one diameter, velocities from just above capture.
 struct Row {
@@ -32,7 +32,6 @@ struct Design {
   std::string sphere;   ///< material
   std::string surface;  ///< material
   Base base;
-  double stiffness_K = 0.0;  ///< stated beside the moduli; 0: not
   std::vector<Row> rows;
   Scatter scatter;
   int events = 40;
@@ -82,10 +81,10 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
 /// Lowest velocity at which the typical sphere of a row comes back [m/s]; 0: at any.
 double capture_velocity(const Base& base, const Effects& effects, double diameter, double highest);
 
-}  // namespace hidden
+}  // namespace recoil::hidden
 
 template <>
-struct recoil::NamesOf<hidden::Readout> {
+struct recoil::NamesOf<recoil::hidden::Readout> {
   static constexpr std::array<std::string_view, 5> names = {
       "exact", "millimetre", "five_millimetres", "millisecond", "frame"};
 };

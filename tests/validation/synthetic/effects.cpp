@@ -7,11 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "validation/synthetic/other_laws.hpp"
 #include "validation/synthetic/runge_kutta.hpp"
 #include "validation/truth/elastoplastic_truth.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 using std::numbers::pi;
@@ -23,81 +22,87 @@ constexpr double gas_density = 1.204;       // of air at 20 C and 1 bar [kg/m3]
 constexpr double free_path = 66e-9;         // there [m]
 constexpr double bar = 101325.0;            // [Pa]
 
-/// Deceleration by the air [m/s2]: Schiller & Naumann (1933) up to Re = 1000, C_d = 0.44 beyond.
-double air_drag(double pressure, double density, double diameter, double speed) {
-  const double share = pressure / bar;
-  const double reynolds = gas_density * share * diameter * speed / viscosity;
-  const double knudsen = 2.0 * free_path / (share * diameter);
-  const double slip = 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
-  const double stokes = 18.0 * viscosity * speed / (density * diameter * diameter * slip);
-  return stokes *
-         (reynolds < 1000.0 ? 1.0 + 0.15 * std::pow(reynolds, 0.687) : 0.44 / 24.0 * reynolds);
-}
-
-/// Speed after a fall from rest over `height`; y = height that is left, speed.
-double fallen(double pressure, double density, double diameter, double height) {
-  State<2> y = {height, 0.0};
-  const double speed = std::sqrt(2.0 * gravity * height);
-  const auto field = [&](const State<2>& at) -> State<2> {
-    return {-at[1], gravity - air_drag(pressure, density, diameter, std::max(at[1], 0.0))};
-  };
-  const bool arrived = integrate_until<2>(
-      field, [](const State<2>& at) { return at[0]; }, y, 1e-3 * speed / gravity, {height, speed},
-      1e-8);
-  return arrived ? y[1] : 0.0;
-}
-
-/// Height that a sphere reaches; y = speed, height.
-double risen(double pressure, double density, double diameter, double speed) {
-  State<2> y = {speed, 0.0};
-  const auto field = [&](const State<2>& at) -> State<2> {
-    return {-gravity - air_drag(pressure, density, diameter, std::max(at[0], 0.0)), at[0]};
-  };
-  const bool turned = integrate_until<2>(
-      field, [](const State<2>& at) { return at[0]; }, y, 1e-3 * speed / gravity,
-      {speed, speed * speed / gravity}, 1e-8);
-  return turned ? y[1] : 0.0;
-}
-
 /// A jump: how long it lasts, and the speed at its end.
 struct Jump {
   double time = 0.0;     ///< [s]
   double landing = 0.0;  ///< [m/s]
 };
 
-/// From a surface at `speed` up and down again; y = speed upwards, height, time.
-Jump jump(double pressure, double density, double diameter, double speed) {
-  State<3> y = {speed, 0.0, 0.0};
-  const auto field = [&](const State<3>& at) -> State<3> {
-    const double drag = air_drag(pressure, density, diameter, std::abs(at[0]));
-    return {-gravity - std::copysign(drag, at[0]), at[0], 1.0};
-  };
-  const double step = 1e-3 * speed / gravity;
-  const State<3> scales = {speed, speed * speed / gravity, speed / gravity};
-  const auto rises = [](const State<3>& at) { return at[0]; };
-  const auto is_above = [](const State<3>& at) { return at[1]; };
-  if (!integrate_until<3>(field, rises, y, step, scales, 1e-8)) return {};
-  y[0] = std::min(y[0], 0.0);
-  return integrate_until<3>(field, is_above, y, step, scales, 1e-8) ? Jump{y[2], -y[0]} : Jump{};
-}
+/// A dropped sphere in air.
+class Flight {
+ public:
+  /// @param pressure of the air [Pa] @param density of the sphere [kg/m3]
+  Flight(double pressure, double density, double diameter)
+      : share_(pressure / bar), density_(density), diameter_(diameter) {}
 
-/// Speed at the end of a jump that lasts as long as one without air that lands at `speed`.
-double landed(double pressure, double density, double diameter, double speed) {
-  const double time = 2.0 * speed / gravity;
-  double from = speed;
-  Jump found;
-  for (int round = 0; round < 12; ++round) {  // the time is about proportional to the speed
-    found = jump(pressure, density, diameter, from);
-    if (!(found.time > 0.0)) return 0.0;
-    from *= time / found.time;
+  /// Speed after a fall from rest over `height`; y = height that is left, speed.
+  double fallen(double height) const {
+    State<2> y = {height, 0.0};
+    const double speed = std::sqrt(2.0 * gravity * height);
+    const auto field = [&](const State<2>& at) -> State<2> {
+      return {-at[1], gravity - drag(std::max(at[1], 0.0))};
+    };
+    return reaches_zero<2>(field, 0, y, speed, {height, speed}) ? y[1] : 0.0;
   }
-  return std::abs(found.time - time) < 1e-6 * time ? found.landing : 0.0;
-}
 
-/// Speed at which a jump without air would last as long as one that begins at `speed`.
-double lasted(double pressure, double density, double diameter, double speed) {
-  return 0.5 * gravity * jump(pressure, density, diameter, speed).time;
-}
+  /// Height that it reaches; y = speed, height.
+  double risen(double speed) const {
+    State<2> y = {speed, 0.0};
+    const auto field = [&](const State<2>& at) -> State<2> {
+      return {-gravity - drag(std::max(at[0], 0.0)), at[0]};
+    };
+    return reaches_zero<2>(field, 0, y, speed, {speed, speed * speed / gravity}) ? y[1] : 0.0;
+  }
+
+  /// Speed at the end of a jump that lasts as long as one without air that lands at `speed`.
+  double landed(double speed) const {
+    const double time = 2.0 * speed / gravity;
+    double from = speed;
+    Jump found;
+    for (int round = 0; round < 12; ++round) {  // the time is about proportional to the speed
+      found = jump(from);
+      if (!(found.time > 0.0)) return 0.0;
+      from *= time / found.time;
+    }
+    return std::abs(found.time - time) < 1e-6 * time ? found.landing : 0.0;
+  }
+
+  /// Speed at which a jump without air would last as long as one that begins at `speed`.
+  double lasted(double speed) const { return 0.5 * gravity * jump(speed).time; }
+
+ private:
+  /// Deceleration by the air [m/s2]: Schiller & Naumann (1933) up to Re = 1000, C_d = 0.44 beyond.
+  double drag(double speed) const {
+    const double reynolds = gas_density * share_ * diameter_ * speed / viscosity;
+    const double knudsen = 2.0 * free_path / (share_ * diameter_);
+    const double slip = 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+    const double stokes = 18.0 * viscosity * speed / (density_ * diameter_ * diameter_ * slip);
+    return stokes *
+           (reynolds < 1000.0 ? 1.0 + 0.15 * std::pow(reynolds, 0.687) : 0.44 / 24.0 * reynolds);
+  }
+
+  /// Moves `y` to where its component falls to zero. @param speed of the flight @param size of y
+  template <std::size_t N, class Field>
+  static bool reaches_zero(const Field& field, std::size_t component, State<N>& y, double speed,
+                           const State<N>& size) {
+    const auto event = [component](const State<N>& at) { return at[component]; };
+    return integrate_until<N>(field, event, y, 1e-3 * speed / gravity, size, 1e-8);
+  }
+
+  /// From a surface at `speed` up and down again; y = speed upwards, height, time.
+  Jump jump(double speed) const {
+    State<3> y = {speed, 0.0, 0.0};
+    const auto field = [&](const State<3>& at) -> State<3> {
+      return {-gravity - std::copysign(drag(std::abs(at[0])), at[0]), at[0], 1.0};
+    };
+    const State<3> size = {speed, speed * speed / gravity, speed / gravity};
+    if (!reaches_zero<3>(field, 0, y, speed, size)) return {};
+    y[0] = std::min(y[0], 0.0);
+    return reaches_zero<3>(field, 1, y, speed, size) ? Jump{y[2], -y[0]} : Jump{};
+  }
+
+  double share_, density_, diameter_;
+};
 
 /// Speed of a sphere after crossing the gas between the measuring plane and the surface (inward:
 /// the gap closes). Drag of Stokes with Schiller & Naumann's inertia and Cunningham's slip far from
@@ -195,12 +200,9 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   double v = velocity - effects.velocity_error;
   double square = v * v + 2.0 * gravity * effects.plane_height;
   if (!(v > 0.0) || !(square > 0.0)) return -1.0;
-  const auto air = [&](auto flight, double from) {
-    return flight(effects.flight_pressure, base.density, d, from);
-  };
+  const Flight air(effects.flight_pressure, base.density, d);
   if (effects.flight_pressure > 0.0) {
-    v = effects.flights_timed ? air(landed, std::sqrt(square))
-                              : air(fallen, 0.5 * square / gravity);
+    v = effects.flights_timed ? air.landed(std::sqrt(square)) : air.fallen(0.5 * square / gravity);
     if (!(v > 0.0)) return -1.0;
     square = v * v;
   }
@@ -234,7 +236,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   double work = effects.asperity_energy;
   work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
   if (effects.jkr_work > 0.0) {
-    work += recoil::jkr_parting_work(effects.jkr_work, sphere.radius, 0.75 * sphere.stiffness);
+    work += jkr_parting_work(effects.jkr_work, sphere.radius, 0.75 * sphere.stiffness);
   }
   square -= 2.0 * work / sphere.mass;
 
@@ -246,8 +248,8 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   }
   if (effects.flight_pressure > 0.0 && square > 0.0) {
     v = std::sqrt(square);
-    const double by_time = effects.flights_timed ? air(lasted, v) : 0.0;
-    square = effects.flights_timed ? by_time * by_time : 2.0 * gravity * air(risen, v);
+    const double by_time = effects.flights_timed ? air.lasted(v) : 0.0;
+    square = effects.flights_timed ? by_time * by_time : 2.0 * gravity * air.risen(v);
   }
   square -= 2.0 * gravity * effects.plane_height;
   if (square > 0.0 && effects.height_error != 0.0) {
@@ -259,6 +261,22 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     square = v > 0.0 ? v * v : -1e-6;
   }
   return square / (velocity * velocity);
+}
+
+/// exp of what the oddity adds to ln e at this velocity.
+double oddity_factor(const Effects& effects, double velocity) {
+  const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
+  switch (effects.oddity) {
+    case Oddity::none:
+      return 1.0;
+    case Oddity::dip:  // as of a resonance
+      return std::exp(-effects.oddity_size * std::exp(-0.5 * x * x));
+    case Oddity::kink:  // e falls no more, but rises, from here on
+      return std::exp(effects.oddity_size * std::max(x, 0.0));
+    case Oddity::wave:
+      return std::exp(effects.oddity_size * (std::sin(2.0 * pi * x) - 1.0));
+  }
+  return 1.0;
 }
 
 }  // namespace
@@ -276,7 +294,7 @@ double Bend::factor(double velocity, double diameter) const {
 Bend draw_bend(double size, std::uint64_t seed, std::uint64_t which) {
   constexpr std::uint64_t first_bend = 1000;
   constexpr double longest = 20.0, shortest = 5.0;
-  recoil::RandomStream random(seed, hidden_purpose, first_bend + which);
+  RandomStream random(seed, hidden_purpose, first_bend + which);
   Bend bend;
   bend.size = size;
   for (Bend::Wave& wave : bend.waves) {
@@ -309,21 +327,6 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
 
 double size_of(double spread, double z) {
   return std::exp(spread * z) / std::exp(0.5 * spread * spread);
-}
-
-double oddity_factor(const Effects& effects, double velocity) {
-  const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
-  switch (effects.oddity) {
-    case Oddity::none:
-      return 1.0;
-    case Oddity::dip:  // as of a resonance
-      return std::exp(-effects.oddity_size * std::exp(-0.5 * x * x));
-    case Oddity::kink:  // e falls no more, but rises, from here on
-      return std::exp(effects.oddity_size * std::max(x, 0.0));
-    case Oddity::wave:
-      return std::exp(effects.oddity_size * (std::sin(2.0 * pi * x) - 1.0));
-  }
-  return 1.0;
 }
 
 double Scatter::of(double e) const {
@@ -381,4 +384,46 @@ Expected expected_point(const Base& base, const Effects& effects, const Scatter&
   return {mean, sd};
 }
 
-}  // namespace hidden
+Reading read_impact(const Base& base, const Effects& effects, const Scatter& scatter,
+                    double velocity, double diameter, std::optional<double> typical,
+                    RandomStream& random) {
+  double square = typical.value_or(0.0);
+  if (!typical) {
+    const double size = size_of(effects.size_spread, random.normal());
+    const double adhesion = std::exp(effects.adhesion_spread * random.normal());
+    square = square_of_restitution(base, effects, velocity, diameter, size, adhesion);
+  }
+  const double noise = random.normal();
+  const double fate = random.uniform();
+  const double chance = random.uniform();
+  if (!(square > 0.0)) return {.captured = true};
+  const double e = std::sqrt(square) * oddity_factor(effects, velocity);
+  const double reading = e + scatter.of(e) * noise;
+  if (reading * velocity < effects.slowest_rebound) return {};
+  return {.seen = true, .restitution = fate < effects.outlier_share ? chance : reading};
+}
+
+std::optional<double> shared_square(const Base& base, const Effects& effects, double velocity,
+                                    double diameter) {
+  if (effects.size_spread > 0.0 || effects.adhesion_spread > 0.0) return std::nullopt;
+  return square_of_restitution(base, effects, velocity, diameter);
+}
+
+double observed_mean(const Base& base, const Effects& effects, const Scatter& scatter,
+                     double velocity, double diameter, std::size_t series, int events,
+                     RandomStream& random) {
+  const auto typical = shared_square(base, effects, velocity, diameter);
+  double sum = 0.0;
+  int seen = 0;
+  for (int tries = 0; seen < events && tries < 1000 * events; ++tries) {
+    const Reading one = read_impact(base, effects, scatter, velocity, diameter, typical, random);
+    if (!one.seen) continue;
+    sum += one.restitution;
+    ++seen;
+  }
+  if (seen == 0) return 0.0;
+  const double offset = effects.series_offset.empty() ? 0.0 : effects.series_offset[series];
+  return sum / seen + offset;
+}
+
+}  // namespace recoil::hidden

@@ -2,17 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
+#include <optional>
 #include <vector>
 
 #include "core/random.hpp"
 #include "validation/synthetic/sphere.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// Streams of random numbers that no command of recoil draws from.
-inline constexpr auto hidden_purpose = static_cast<recoil::RandomPurpose>(1000);
+inline constexpr auto hidden_purpose = static_cast<RandomPurpose>(1000);
 
 /// A smooth random factor: how wrong a law may be. One plus a sum of three plane waves in
 /// (ln V, ln d) of equal height, whose lengths lie between 5 and 20 in these logarithms.
@@ -63,7 +62,7 @@ struct Effects {
   double oddity_size = 0.0;    ///< on ln e
   double oddity_centre = 1.0;  ///< [m/s]
   double oddity_width = 1.0;   ///< in ln V
-  bool other_laws = false;     ///< those of other_laws.hpp, where there are any
+  bool other_laws = false;     ///< second published laws, where there are any
   Bend bend_of_laws;           ///< a factor on what the effects do to e^2
   Bend bend_of_base;           ///< a factor on 1 - e^2 of the base model
 };
@@ -99,15 +98,26 @@ struct Expected {
 Expected expected_point(const Base& base, const Effects& effects, const Scatter& scatter,
                         double velocity, double diameter, std::size_t series);
 
-/// The mean of `events` rebounds. `uniform` and `normal` give fresh numbers.
-template <class Random>
+/// What one impact leaves behind.
+struct Reading {
+  bool captured = false;
+  bool seen = false;         ///< it came back, and fast enough
+  double restitution = 0.0;  ///< as read, where it is seen
+};
+
+/// One impact by itself. `typical` is the square of the restitution that all impacts of the point
+/// share; nothing where the spheres differ. Draws the same numbers whatever becomes of it.
+Reading read_impact(const Base& base, const Effects& effects, const Scatter& scatter,
+                    double velocity, double diameter, std::optional<double> typical,
+                    RandomStream& random);
+
+/// The square of the restitution that all impacts share; nothing where the spheres differ.
+std::optional<double> shared_square(const Base& base, const Effects& effects, double velocity,
+                                    double diameter);
+
+/// The mean of `events` rebounds.
 double observed_mean(const Base& base, const Effects& effects, const Scatter& scatter,
                      double velocity, double diameter, std::size_t series, int events,
-                     Random& random);
+                     RandomStream& random);
 
-/// exp of what the oddity adds to ln e at this velocity.
-double oddity_factor(const Effects& effects, double velocity);
-
-}  // namespace hidden
-
-#include "validation/synthetic/observed_mean.hpp"
+}  // namespace recoil::hidden

@@ -1,49 +1,34 @@
-#include "validation/synthetic/further_impacts.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
-#include "validation/synthetic/observed_mean.hpp"
+#include "validation/synthetic/case.hpp"
+#include "validation/synthetic/effects.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
-struct Seen {
+/// Makes the impacts of `point`, each by itself, and fills in what came of them: it comes back,
+/// stays, or comes back too slowly to be seen. False where all were too slow to be seen.
+bool measure(const Base& base, const Effects& effects, const Scatter& scatter, Point& point,
+             RandomStream& random) {
   int rebounds = 0;
-  int captured = 0;
-  double sum = 0.0;  ///< of the readings
-};
-
-/// Each impact by itself: it comes back, stays, or comes back too slowly to be seen.
-Seen impacts_seen(const Base& base, const Effects& effects, const Scatter& scatter,
-                  const Point& point, recoil::RandomStream& random) {
-  Seen seen;
+  double sum = 0.0;
   const auto typical = shared_square(base, effects, point.velocity, point.diameter);
   for (int i = 0; i < point.events; ++i) {
     const Reading one =
         read_impact(base, effects, scatter, point.velocity, point.diameter, typical, random);
-    seen.captured += one.captured ? 1 : 0;
-    seen.rebounds += one.seen ? 1 : 0;
-    seen.sum += one.restitution;
+    point.captured += one.captured ? 1 : 0;
+    rebounds += one.seen ? 1 : 0;
+    sum += one.restitution;
   }
-  return seen;
-}
-
-/// Makes the impacts of `point` and fills in what came of them; false where all were too slow to be
-/// seen.
-bool measure(const Base& base, const Effects& effects, const Scatter& scatter, Point& point,
-             recoil::RandomStream& random) {
-  const Seen seen = impacts_seen(base, effects, scatter, point, random);
-  if (seen.rebounds + seen.captured == 0) return false;
-  point.events = seen.rebounds + seen.captured;
-  point.captured = seen.captured;
-  point.restitution = seen.rebounds > 0 ? seen.sum / seen.rebounds : 0.0;
+  point.events = rebounds + point.captured;
+  point.restitution = rebounds > 0 ? sum / rebounds : 0.0;
   // What an experimenter knows of the scatter: that of the other points.
-  point.sd = scatter.of(std::max(point.restitution, 0.1)) / std::sqrt(std::max(seen.rebounds, 1));
-  return true;
+  point.sd = scatter.of(std::max(point.restitution, 0.1)) / std::sqrt(std::max(rebounds, 1));
+  return point.events > 0;
 }
 
 /// What a table says of the point.
@@ -53,7 +38,7 @@ double reading_of(const Effects& effects, const Point& point) {
 }
 
 /// Until every row has one; each has an error of its own, if any has.
-void add_batches(Effects& effects, std::size_t rows, recoil::RandomStream& random) {
+void add_batches(Effects& effects, std::size_t rows, RandomStream& random) {
   if (effects.series_offset.empty()) return;
   const double size = size_of_offsets(effects);
   while (effects.series_offset.size() < rows) {
@@ -64,8 +49,7 @@ void add_batches(Effects& effects, std::size_t rows, recoil::RandomStream& rando
 }  // namespace
 
 void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round) {
-  recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
-                              99);
+  RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose, 99);
   Design& design = made.design;
   const auto row = std::find_if(design.rows.begin(), design.rows.end(), [&](const Row& r) {
     return std::abs(r.diameter / further.diameter - 1.0) < 1e-6;
@@ -90,4 +74,4 @@ void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round
   made.readings.push_back(reading_of(effects, point));
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 using E = Effects;
@@ -85,7 +85,7 @@ const HiddenEffect& find_hidden_effect(std::string_view id) {
 }
 
 Nuisances draw_nuisances(const HiddenEffect& effect, const Design& design, std::uint64_t seed) {
-  recoil::RandomStream random(seed, hidden_purpose, 1);
+  RandomStream random(seed, hidden_purpose, 1);
   const auto between = [&](double low, double high) {
     return low + (high - low) * random.uniform();
   };
@@ -140,4 +140,4 @@ double largest_strength(const HiddenEffect& effect, const Nuisances& nuisances) 
   return nuisances.sign < 0.0 ? effect.most_negative : effect.largest;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

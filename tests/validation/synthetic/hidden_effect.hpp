@@ -7,7 +7,7 @@
 
 #include "validation/synthetic/design.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// Careless: no effect on what happens, but errors that the table does not state.
 enum class EffectKind { physics, measurement, outside, careless };
@@ -46,4 +46,4 @@ void add_effect(Effects& effects, const HiddenEffect& effect, const Nuisances& n
 /// Largest strength for the sign that was drawn.
 double largest_strength(const HiddenEffect& effect, const Nuisances& nuisances);
 
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 /// Data with a hidden effect, made by physics of their own: nothing here knows the fitter.
-namespace hidden {
+namespace recoil::hidden {
 
 template <std::size_t N>
 using State = std::array<double, N>;
@@ -101,4 +101,4 @@ bool integrate_until(const Field& field, const Event& event, State<N>& y, double
   return false;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hidden {
+namespace recoil::hidden {
 namespace {
 
 /// (e^2 - e_base^2) / (sd (e + e_base)) of every point, the base with C_H and C_A.
@@ -71,4 +71,4 @@ Refit refit_base(const Design& design, const std::vector<Point>& points) {
   return {x(0), x(1), now.norm()};
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

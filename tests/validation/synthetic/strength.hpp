@@ -6,7 +6,7 @@
 
 #include "validation/synthetic/design.hpp"
 
-namespace hidden {
+namespace recoil::hidden {
 
 /// The base model fitted to noiseless points, C_H and C_A free and f0 as stated.
 struct Refit {
@@ -24,8 +24,6 @@ struct Strength {
   bool reached = false;
   double value = 0.0;            ///< or the largest that was tried
   double signal_to_noise = 0.0;  ///< there
-  std::vector<Point> points;     ///< there, without noise
-  Refit refit;
 };
 
 /// @param effects_at Effects for a strength in [0, largest]
@@ -36,13 +34,8 @@ Strength find_strength(const Design& design, const EffectsAt& effects_at, double
   const auto measure = [&](double value) {
     Strength s;
     s.value = value;
-    s.points = expected_points(design, effects_at(value));
-    if (s.points.empty()) {
-      s.signal_to_noise = -1.0;
-      return s;
-    }
-    s.refit = refit_base(design, s.points);
-    s.signal_to_noise = s.refit.signal_to_noise;
+    const std::vector<Point> points = expected_points(design, effects_at(value));
+    s.signal_to_noise = points.empty() ? -1.0 : refit_base(design, points).signal_to_noise;
     return s;
   };
   // From above: halve until it can be measured at all, then bisect in the logarithm, guided by the
@@ -95,4 +88,4 @@ Strength find_strength(const Design& design, const EffectsAt& effects_at, double
   return best;
 }
 
-}  // namespace hidden
+}  // namespace recoil::hidden

@@ -82,4 +82,15 @@ double recipe_adhesion_force(double stiffness, double adhesion_energy, double di
   return std::cbrt(9.0 * adhesion_energy * adhesion_energy * stiffness * diameter / (4.0 * pi));
 }
 
+Truth undamped_truth(const Material& particle, const Material& surface, double reference_diameter) {
+  const DerivedContact contact = derive_recipe_contact(particle, surface);
+  Truth truth;
+  truth.density = particle.density;
+  truth.stiffness = contact.stiffness;
+  truth.reference_diameter = reference_diameter;
+  truth.adhesion_force =
+      recipe_adhesion_force(contact.stiffness, contact.adhesion_energy, reference_diameter);
+  return truth;
+}
+
 }  // namespace recoil

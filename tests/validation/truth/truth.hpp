@@ -42,4 +42,8 @@ DerivedContact derive_recipe_contact(const Material& particle, const Material& s
 /// Eq. 12: f0 = (9 W_A^2 K r / (2 pi))^(1/3) [N/m], the same as 9 and 10 together.
 double recipe_adhesion_force(double stiffness, double adhesion_energy, double diameter);
 
+/// The ring-adhesion model of two materials by these equations, f0 at `reference_diameter` [m]; not
+/// damped yet.
+Truth undamped_truth(const Material& particle, const Material& surface, double reference_diameter);
+
 }  // namespace recoil
