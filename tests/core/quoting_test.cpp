@@ -29,34 +29,40 @@ class Quoting : public ::testing::Test {
 };
 
 TEST_F(Quoting, AShellReadsOneWord) {
+  std::string script;
+  std::string names;
   for (const std::string& name : hostile_names()) {
-    folder_.write("script.sh", "printf %s " + shell_word(name) + "\n");
-    const Outcome ran = run_command({"sh", "script.sh"}, folder_.path());
-    EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(ran.out, name);
+    script += "printf '%s\\0' " + shell_word(name) + "\n";
+    names += name + '\0';
   }
+  folder_.write("script.sh", script);
+  const Outcome ran = run_command({"sh", "script.sh"}, folder_.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.out, names);
 }
 
 TEST_F(Quoting, AnAddressLeadsToTheFileBesideThePage) {
   const std::string script =
       "import os, sys, urllib.parse as u\n"
-      "to = u.urlsplit(u.urljoin('file:///base/index.html', sys.argv[1]))\n"
-      "assert to.scheme == 'file' and not to.query and not to.fragment, to\n"
-      "assert u.unquote_to_bytes(to.path) == b'/base/' + os.fsencode(sys.argv[2]), to\n";
-  for (const std::string& name : hostile_names()) {
-    const Outcome ran = python(script, {url_path(name), name});
-    EXPECT_EQ(ran.status, 0) << name << ran.err;
-  }
+      "for path, name in zip(sys.argv[1::2], sys.argv[2::2], strict=True):\n"
+      "    to = u.urlsplit(u.urljoin('file:///base/index.html', path))\n"
+      "    assert to.scheme == 'file' and not to.query and not to.fragment, to\n"
+      "    assert u.unquote_to_bytes(to.path) == b'/base/' + os.fsencode(name), to\n";
+  std::vector<std::string> words;
+  for (const std::string& name : hostile_names()) words.insert(words.end(), {url_path(name), name});
+  const Outcome ran = python(script, words);
+  EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
 TEST_F(Quoting, ATerminalIsToldNothing) {
   const std::string script =
       "import sys, unicodedata\n"
-      "assert not [c for c in sys.argv[1] if unicodedata.category(c) in ('Cc', 'Cs')]\n";
-  for (const std::string& name : hostile_names()) {
-    const Outcome ran = python(script, {printable(name)});
-    EXPECT_EQ(ran.status, 0) << name << ran.err;
-  }
+      "for name in sys.argv[1:]:\n"
+      "    assert not [c for c in name if unicodedata.category(c) in ('Cc', 'Cs')], name\n";
+  std::vector<std::string> words;
+  for (const std::string& name : hostile_names()) words.push_back(printable(name));
+  const Outcome ran = python(script, words);
+  EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(printable("a\tb\nc\r", true), "a\tb\nc ");
   EXPECT_EQ(printable("ünï – ☃"), "ünï – ☃");
 }

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 #include "document/html.hpp"
 #include "example_analysis.hpp"
@@ -31,17 +32,39 @@ class Browser : public testing::Test {
     index_ = html_page(index_document({entry}));
   }
 
-  /// 0 when Chromium is content with `html`.
-  int open(const std::string& html, int figures, const std::vector<std::string>& options = {}) {
-    const fs::path file = folder_ / "page.html";
-    folder_.write("page.html", html);
+  /// Names and HTML of pages.
+  using Pages = std::vector<std::pair<std::string, std::string>>;
+
+  /// The complaints of one Chromium about each page, one per line; empty without any.
+  std::map<std::string, std::string> complaints(const Pages& pages, int figures,
+                                                const std::vector<std::string>& options = {}) {
     std::vector<std::string> words = {"python3",
                                       RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
-                                      "--figures", std::to_string(figures), file.string()};
+                                      "--figures", std::to_string(figures)};
     words.insert(words.end(), options.begin(), options.end());
+    for (const auto& [name, html] : pages) {
+      folder_.write(name + ".html", html);
+      words.push_back((folder_ / (name + ".html")).string());
+    }
     const support::Outcome outcome = support::run_command(words, folder_.path());
-    last_words_ = outcome.out + outcome.err;
-    return outcome.status;
+    std::map<std::string, std::string> said;
+    for (const auto& [name, html] : pages) {
+      const std::string place = (folder_ / (name + ".html")).string() + ": ";
+      bool judged = false;
+      std::istringstream lines(outcome.out);
+      for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(place)) continue;
+        line.erase(0, place.size());
+        judged = line.starts_with("ok, ") || line.starts_with("FAILED, ");
+        if (!judged) said[name] += line + "\n";
+      }
+      EXPECT_TRUE(judged) << name << ": " << outcome.out << outcome.err;
+      said[name];
+    }
+    const bool any =
+        std::any_of(said.begin(), said.end(), [](const auto& one) { return !one.second.empty(); });
+    EXPECT_EQ(outcome.status, any ? 1 : 0) << outcome.err;
+    return said;
   }
 
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -52,84 +75,84 @@ class Browser : public testing::Test {
 
   static inline std::string page_;
   static inline std::string index_;
-  std::string last_words_;  // of the browser
   support::TemporaryFolder folder_;
 };
 
-TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 6), 0); }
+TEST_F(Browser, ShowsAllFigures) {
+  const auto said = complaints({{"joint", fit_html(sample::two_datasets())}, {"page", page_}}, 11);
+  EXPECT_EQ(said.at("joint"), "");
+  EXPECT_EQ(said.at("page"),
+            "desktop: 6 drawn figures, at least 11 expected\n"
+            "phone: 6 drawn figures, at least 11 expected\n"
+            "print: 6 drawn figures, at least 11 expected\n");
+}
 
 TEST_F(Browser, ShowsNothingThatAxeFinds) {
   const fs::path axe = fs::path(RECOIL_SOURCE_DIR) / "build" / "axe" / "axe.min.js";
   if (!fs::exists(axe)) return;  // no network: `./run test` says so
-  EXPECT_EQ(open(page_, 6, {"--axe", axe.string()}), 0) << last_words_;
-  EXPECT_EQ(open(index_, 0, {"--axe", axe.string()}), 0) << last_words_;
-  EXPECT_EQ(
-      open(replaced(page_, "</main>", "<button></button></main>"), 6, {"--axe", axe.string()}), 1);
-  EXPECT_NE(last_words_.find("axe button-name"), std::string::npos) << last_words_;
+  const auto said = complaints({{"page", page_},
+                                {"index", index_},
+                                {"broken", replaced(page_, "</main>", "<button></button></main>")}},
+                               0, {"--axe", axe.string()});
+  EXPECT_EQ(said.at("page"), "");
+  EXPECT_EQ(said.at("index"), "");
+  EXPECT_NE(said.at("broken").find("axe button-name"), std::string::npos) << said.at("broken");
 }
 
 TEST_F(Browser, ShowsThePageWithoutScript) {
-  EXPECT_EQ(open(page_, 6, {"--without-script"}), 0);
-  EXPECT_EQ(
-      open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 6, {"--without-script"}),
-      1)
-      << "a page without its script must not show links that need it";
+  const auto said = complaints(
+      {{"page", page_}, {"broken", replaced(page_, "</main>", "<p class='save'>Save</p></main>")}},
+      6, {"--without-script"});
+  EXPECT_EQ(said.at("page"), "");
+  EXPECT_NE(said.at("broken").find("1 things that only a script makes"), std::string::npos)
+      << said.at("broken");
 }
 
-TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(fit_html(sample::two_datasets()), 11), 0); }
-
-TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
-
-TEST_F(Browser, ComplainsOfAConsoleError) {
-  EXPECT_EQ(open(replaced(page_, "</body>", "<script>console.error('x')</script></body>"), 1), 1);
-}
-
-TEST_F(Browser, ComplainsOfAnException) {
-  EXPECT_EQ(open(replaced(page_, "</body>", "<script>undefined.x()</script></body>"), 1), 1);
-}
-
-TEST_F(Browser, ComplainsOfAMissingPlot) {
-  std::string broken = page_;
-  const auto begin = broken.find("<svg ");
-  broken.erase(begin, broken.find("</svg>") + 6 - begin);
-  EXPECT_EQ(open(broken, 1), 1);
-  EXPECT_EQ(open(page_, 7), 1) << "fewer figures than asked for";
-}
-
-TEST_F(Browser, ComplainsOfAnEmptyPlot) {
-  std::string broken = page_;
-  const auto begin = broken.find("<g id=\"restitution-1_plot_1\"");
-  ASSERT_NE(begin, std::string::npos);
-  broken.erase(begin, broken.find("</svg>", begin) - begin);
-  EXPECT_EQ(open(broken, 1), 1);
-}
-
-TEST_F(Browser, ComplainsOfAnInvisiblePlot) {
-  EXPECT_EQ(open(replaced(page_, "</style>", ".picture svg { display: none }</style>"), 1), 1);
-}
-
-TEST_F(Browser, ComplainsOfTheNetwork) {
-  EXPECT_EQ(
-      open(replaced(page_, "</body>", "<img alt='' src='http://127.0.0.1:9/missing.png'></body>"),
-           1),
-      1);
-}
-
-TEST_F(Browser, ComplainsOfAPageThatScrollsSideways) {
-  EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:2000px'>.</div></main>"), 1), 1);
-  EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:600px'>.</div></main>"), 1), 1)
-      << "too wide for a phone only";
-}
-
-TEST_F(Browser, ComplainsOfWhatDoesNotBelongOnPaper) {
-  EXPECT_EQ(open(replaced(page_, "</style>", ".save { display: block !important }</style>"), 1), 1)
-      << "links that save";
-  EXPECT_EQ(
-      open(replaced(page_, "</style>", "figure { break-inside: auto !important }</style>"), 1), 1)
-      << "a page that ends within a picture";
-  EXPECT_EQ(open(replaced(index_, "</style>", "a::after { content: none !important }</style>"), 1),
-            1)
-      << "links that lead nowhere on paper";
+TEST_F(Browser, ComplainsOfWhatAReaderWouldSeeGoWrong) {
+  std::string no_plot = page_;
+  const auto svg = no_plot.find("<svg ");
+  no_plot.erase(svg, no_plot.find("</svg>") + 6 - svg);
+  std::string empty_plot = page_;
+  const auto plot = empty_plot.find("<g id=\"restitution-1_plot_1\"");
+  ASSERT_NE(plot, std::string::npos);
+  empty_plot.erase(plot, empty_plot.find("</svg>", plot) - plot);
+  const auto body = [](const std::string& more) {
+    return replaced(page_, "</body>", more + "</body>");
+  };
+  const auto main = [](const std::string& more) {
+    return replaced(page_, "</main>", more + "</main>");
+  };
+  const auto style = [](const std::string& html, const std::string& more) {
+    return replaced(html, "</style>", more + "</style>");
+  };
+  struct Broken {
+    std::string name, html, complaint;
+  };
+  const std::vector<Broken> all = {
+      {"console-error", body("<script>console.error('x')</script>"), "desktop: console error: x"},
+      {"exception", body("<script>undefined.x()</script>"), "desktop: exception: TypeError"},
+      {"missing-plot", no_plot, "no SVG"},
+      {"empty-plot", empty_plot, "nothing is plotted in it"},
+      {"invisible-plot", style(page_, ".picture svg { display: none }"), "has no visible box"},
+      {"network", body("<img alt='' src='http://127.0.0.1:9/missing.png'>"),
+       "http://127.0.0.1:9/missing.png"},
+      {"wide", main("<div style='width:2000px'>.</div>"), "desktop: the page scrolls sideways"},
+      {"wide-for-a-phone", main("<div style='width:600px'>.</div>"),
+       "phone: the page scrolls sideways"},
+      {"printed-link", style(page_, ".save { display: block !important }"), "print: prints "},
+      {"broken-picture", style(page_, "figure { break-inside: auto !important }"),
+       "print: a page may end within FIGURE"},
+      {"lost-link", style(index_, "a::after { content: none !important }"),
+       "print: does not print where "}};
+  Pages pages = {{"page", page_}, {"index", index_}};
+  for (const Broken& one : all) pages.emplace_back(one.name, one.html);
+  const auto said = complaints(pages, 1);
+  EXPECT_EQ(said.at("page"), "");
+  EXPECT_EQ(said.at("index"), "");
+  for (const Broken& one : all) {
+    EXPECT_NE(said.at(one.name).find(one.complaint), std::string::npos)
+        << one.name << ": " << said.at(one.name);
+  }
 }
 
 }  // namespace
