@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -58,8 +60,7 @@ std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
 
 /// The first indices of the bins of sorted velocities, and the number of velocities at the end.
 /// @param error relative standard deviation of one velocity
-std::vector<std::size_t> cuts(const std::vector<Arrival>& sorted, std::size_t per_bin,
-                              double error) {
+std::vector<std::size_t> cuts(std::span<const Arrival> sorted, std::size_t per_bin, double error) {
   constexpr double widest_gap = 4.0;     // errors
   constexpr double narrowest_bin = 6.0;  // errors
   std::vector<std::size_t> parts = {0};
@@ -91,12 +92,10 @@ struct Moments {
 };
 
 /// Mean and standard deviation of the values that are known (not negative).
-template <class Value>
-Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
-                   const Value& value) {
+Moments moments_of(std::span<const Arrival> arrivals, double Arrival::*value) {
   std::vector<double> known;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (const double x = value(all[i]); x >= 0.0) known.push_back(x);
+  for (const Arrival& arrival : arrivals) {
+    if (arrival.*value >= 0.0) known.push_back(arrival.*value);
   }
   const Moments result = {mean(known), standard_deviation(known)};
   return result.sd < 1e-9 * result.mean ? Moments{result.mean, 0.0} : result;  // rounding only
@@ -129,20 +128,17 @@ void sort_unpaired(PointMean& point, double lost_share, double height, double la
   point.captured = rest > 0.0 ? static_cast<std::size_t>(rest) : 0;
 }
 
-PointMean mean_of(const std::vector<Arrival>& sorted, std::size_t begin, std::size_t end) {
+PointMean mean_of(std::span<const Arrival> bin) {
   PointMean point;
-  for (std::size_t i = begin; i < end; ++i) {
-    point.rebounds += sorted[i].restitution >= 0.0 ? 1 : 0;
-    point.unpaired += sorted[i].restitution < 0.0 ? 1 : 0;
-    point.came_back += sorted[i].came_back ? 1 : 0;
+  for (const Arrival& arrival : bin) {
+    ++(arrival.restitution < 0.0 ? point.unpaired : point.rebounds);
+    point.came_back += arrival.came_back ? 1 : 0;
   }
-  const Moments velocity =
-      moments_of(sorted, begin, end, [](const Arrival& a) { return a.velocity; });
-  const Moments restitution =
-      moments_of(sorted, begin, end, [](const Arrival& a) { return a.restitution; });
+  const Moments velocity = moments_of(bin, &Arrival::velocity);
+  const Moments restitution = moments_of(bin, &Arrival::restitution);
   point.velocity = velocity.mean;
-  point.velocity_sd = velocity.sd / std::sqrt(static_cast<double>(end - begin));
-  point.diameter = moments_of(sorted, begin, end, [](const Arrival& a) { return a.diameter; }).mean;
+  point.velocity_sd = velocity.sd / std::sqrt(static_cast<double>(bin.size()));
+  point.diameter = moments_of(bin, &Arrival::diameter).mean;
   point.restitution = restitution.mean;
   point.scatter = restitution.sd;
   if (point.rebounds > 1) {
@@ -155,17 +151,16 @@ PointMean mean_of(const std::vector<Arrival>& sorted, std::size_t begin, std::si
 /// be larger unless the instrument misses fewer of the slow rebounds.
 void count_fastest(std::vector<Arrival> arrivals, Averages& result) {
   std::ranges::sort(arrivals, [](const Arrival& a, const Arrival& b) {
-    return a.series < b.series || (a.series == b.series && a.velocity < b.velocity);
+    return std::tie(a.series, a.velocity) < std::tie(b.series, b.velocity);
   });
   std::size_t unpaired = 0;
-  for (std::size_t begin = 0; begin < arrivals.size();) {
-    std::size_t end = begin;
-    while (end < arrivals.size() && arrivals[end].series == arrivals[begin].series) ++end;
-    for (std::size_t i = begin + (end - begin) * 3 / 4; i < end; ++i) {
+  for (auto begin = arrivals.begin(); begin != arrivals.end();) {
+    const auto end = std::find_if(
+        begin, arrivals.end(), [&](const Arrival& other) { return other.series != begin->series; });
+    for (begin += (end - begin) * 3 / 4; begin != end; ++begin) {
       ++result.fast_impacts;
-      unpaired += arrivals[i].restitution < 0.0 ? 1 : 0;
+      unpaired += begin->restitution < 0.0 ? 1 : 0;
     }
-    begin = end;
   }
   if (result.fast_impacts > 0) {
     result.fast_unpaired = static_cast<double>(unpaired) / static_cast<double>(result.fast_impacts);
@@ -200,28 +195,24 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
         std::min(static_cast<std::size_t>(above - edges.begin()), edges.size() - 1) - 1;
   }
   std::ranges::stable_sort(arrivals, [](const Arrival& a, const Arrival& b) {
-    if (a.series != b.series) return a.series < b.series;
-    if (a.size_class != b.size_class) return a.size_class < b.size_class;
-    return a.velocity < b.velocity;
+    return std::tie(a.series, a.size_class, a.velocity) <
+           std::tie(b.series, b.size_class, b.velocity);
   });
-  for (std::size_t begin = 0; begin < arrivals.size();) {
-    std::vector<Arrival> group;
-    for (std::size_t i = begin;
-         i < arrivals.size() && arrivals[i].series == arrivals[begin].series &&
-         arrivals[i].size_class == arrivals[begin].size_class;
-         ++i) {
-      group.push_back(arrivals[i]);
-    }
-    begin += group.size();
-    const double all_sizes =
-        moments_of(group, 0, group.size(), [](const Arrival& a) { return a.diameter; }).mean;
+  for (auto begin = arrivals.begin(); begin != arrivals.end();) {
+    const auto end = std::find_if(begin, arrivals.end(), [&](const Arrival& other) {
+      return other.series != begin->series || other.size_class != begin->size_class;
+    });
+    const std::span<const Arrival> group(begin, end);
+    begin = end;
+    const double all_sizes = moments_of(group, &Arrival::diameter).mean;
     const std::vector<std::size_t> begins = cuts(group, options.per_bin, pairs.velocity_spread);
     for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
-      if (begins[k + 1] - begins[k] < std::min<std::size_t>(5, options.per_bin)) {
-        result.in_small_bins += begins[k + 1] - begins[k];
+      const std::span<const Arrival> bin = group.subspan(begins[k], begins[k + 1] - begins[k]);
+      if (bin.size() < std::min<std::size_t>(5, options.per_bin)) {
+        result.in_small_bins += bin.size();
         continue;
       }
-      PointMean point = mean_of(group, begins[k], begins[k + 1]);
+      PointMean point = mean_of(bin);
       if (options.mean_diameter) point.diameter = all_sizes;
       point.series = series_name(series[group.front().series], edges, group.front().size_class);
       result.points.push_back(std::move(point));

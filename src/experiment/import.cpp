@@ -19,22 +19,17 @@ namespace fs = std::filesystem;
 /// Takes the magnitudes of signed velocities: all incident ones have one sign, all rebound ones the
 /// other.
 void drop_signs(const ImportTable& table, ImportedPoints& out) {
-  const auto count = [&](Quantity quantity, auto sign) {
-    return std::ranges::count_if(out.points, [&](const ImportedPoint& point) {
-      const auto value = point.value[quantity];
-      return value && sign(*value);
+  const auto any = [&](Quantity quantity, double sign) {
+    return std::ranges::any_of(out.points, [&](const ImportedPoint& point) {
+      return sign * point.value[quantity].value_or(0.0) > 0.0;
     });
   };
-  const auto below = [](double v) { return v < 0.0; };
-  const auto above = [](double v) { return v > 0.0; };
-  const auto in_below = count(Quantity::incident_velocity, below);
-  const auto in_above = count(Quantity::incident_velocity, above);
-  const auto out_below = count(Quantity::rebound_velocity, below);
-  const auto out_above = count(Quantity::rebound_velocity, above);
-  if (in_below == 0 && out_below == 0) return;
-  if ((in_below > 0 && in_above > 0) || (out_below > 0 && out_above > 0) ||
-      (in_below > 0 && out_below > 0)) {
-    table.fail(0, in_below > 0 ? "incident_velocity" : "rebound_velocity",
+  const bool in_below = any(Quantity::incident_velocity, -1.0);
+  const bool out_below = any(Quantity::rebound_velocity, -1.0);
+  if (!in_below && !out_below) return;
+  if ((in_below && any(Quantity::incident_velocity, 1.0)) ||
+      (out_below && any(Quantity::rebound_velocity, 1.0)) || (in_below && out_below)) {
+    table.fail(0, in_below ? "incident_velocity" : "rebound_velocity",
                "the signs of the velocities are mixed",
                "an impact comes in with one sign and leaves with the other",
                "correct them, or give magnitudes");
@@ -86,13 +81,14 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
   }
   ImportTable table(request, known, units);
   const bool counts = table.has("events") && table.has("captured");
-  const bool both = table.has("restitution") && table.has("rebound_velocity");
-  if (both || !(table.has("restitution") || table.has("rebound_velocity") || counts)) {
-    throw InputError({request.file.string(), 1, 1},
-                     table.has("restitution") ? "both restitution and rebound_velocity are there"
-                                              : "which column is the rebound?",
-                     table.has("restitution") ? "they could contradict each other" : "",
-                     "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
+  const bool direct = table.has("restitution");
+  const bool speed = table.has("rebound_velocity");
+  if (direct ? speed : !speed && !counts) {
+    throw InputError(
+        {request.file.string(), 1, 1},
+        direct ? "both restitution and rebound_velocity are there" : "which column is the rebound?",
+        direct ? "they could contradict each other" : "",
+        "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
   }
   ImportedPoints out;
   for (std::size_t r = 0; r < table.size(); ++r) {
@@ -105,8 +101,8 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
       if (quantity.dimension == Dimension::text) continue;
       point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);
     }
-    const std::string e = table.has("restitution") ? "restitution" : "rebound_velocity";
-    const bool rebound = (table.has(e) && !table.lacks(r, e)) ||
+    const bool rebound = (direct && !table.lacks(r, "restitution")) ||
+                         (speed && !table.lacks(r, "rebound_velocity")) ||
                          (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
     const bool sized = !table.lacks(r, "diameter") || known_diameter(request, point.series, {});
     if (table.lacks(r, "incident_velocity") || !sized ||

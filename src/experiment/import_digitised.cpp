@@ -242,9 +242,9 @@ void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
   });
 }
 
-/// Reads one coordinate of a point and its reading error, in the SI unit of the quantity.
-void read_coordinate(const CsvField& cell, const FigureAxis& axis, const ImportRequest& request,
-                     ImportedPoint& point, std::optional<double>& error) {
+/// Reads one coordinate of a point. @returns its reading error, in the SI unit of the quantity
+std::optional<double> read_coordinate(const CsvField& cell, const FigureAxis& axis,
+                                      const ImportRequest& request, ImportedPoint& point) {
   const std::string file = request.file.string();
   const double printed = number_in(cell, file, to_string(axis.quantity), number_format(request));
   const double value = printed * axis.factor;
@@ -259,18 +259,16 @@ void read_coordinate(const CsvField& cell, const FigureAxis& axis, const ImportR
                      "take it as a capture with --captured-below 0.01, or remove the point");
   }
   point.value[axis.quantity] = value;
-  if (axis.reading_error > 0.0) error = axis.error_at(printed) * axis.factor;
+  if (!(axis.reading_error > 0.0)) return std::nullopt;
+  return axis.error_at(printed) * axis.factor;
 }
 
 ImportedPoint point_of(const CsvField& x, const CsvField& y, const FigureAxes& axes,
                        const ImportRequest& request) {
   ImportedPoint point;
-  const bool velocity_on_x = axes[0].quantity == Quantity::incident_velocity;
-  std::optional<double> errors[2];
-  read_coordinate(x, axes[0], request, point, errors[0]);
-  read_coordinate(y, axes[1], request, point, errors[1]);
-  const double velocity = *point.value[Quantity::incident_velocity];
-  const std::optional<double>& rebound_error = errors[velocity_on_x ? 1 : 0];
+  std::optional<double> velocity_error = read_coordinate(x, axes[0], request, point);
+  std::optional<double> rebound_error = read_coordinate(y, axes[1], request, point);
+  if (axes[1].quantity == Quantity::incident_velocity) std::swap(velocity_error, rebound_error);
   if (*point.restitution() < request.captured_below) {
     point.value[Quantity::restitution] = std::nullopt;
     point.value[Quantity::rebound_velocity] = std::nullopt;
@@ -280,9 +278,9 @@ ImportedPoint point_of(const CsvField& x, const CsvField& y, const FigureAxes& a
     // The contribution of the error of V to e follows from velocity_sd.
     const bool is_velocity = point.value[Quantity::rebound_velocity].has_value();
     point.value[Quantity::restitution_sd] =
-        is_velocity ? *rebound_error / velocity : *rebound_error;
+        is_velocity ? *rebound_error / *point.value[Quantity::incident_velocity] : *rebound_error;
   }
-  point.value[Quantity::velocity_sd] = errors[velocity_on_x ? 0 : 1];
+  point.value[Quantity::velocity_sd] = velocity_error;
   return point;
 }
 

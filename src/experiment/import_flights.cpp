@@ -96,13 +96,9 @@ struct Drops {
   int line = 0;
 };
 
-struct HeightErrors {
-  StatedError drop;
-  StatedError rebound;
-};
-
-Drops read_drop(const ImportTable& table, std::size_t r, const ImportRequest& request,
-                const HeightErrors& errors, Flights& flights) {
+/// @param captured_below a restitution below this is a capture [1]
+Drops read_drop(const ImportTable& table, std::size_t r, const StatedError& drop_error,
+                const StatedError& rebound_error, double captured_below, Flights& flights) {
   Drops drop;
   drop.height = table.positive(r, "drop_height");
   const double rebound = table.needed(r, "rebound_height");
@@ -110,14 +106,14 @@ Drops read_drop(const ImportTable& table, std::size_t r, const ImportRequest& re
   drop.series = table.name(r, "series");
   drop.diameter = table.value(r, "diameter");
   drop.line = table.line(r);
-  drop.height_sd = table.value(r, "drop_height_sd").value_or(errors.drop.of(drop.height));
-  drop.rebound_sd = table.value(r, "rebound_height_sd").value_or(errors.rebound.of(rebound));
+  drop.height_sd = table.value(r, "drop_height_sd").value_or(drop_error.of(drop.height));
+  drop.rebound_sd = table.value(r, "rebound_height_sd").value_or(rebound_error.of(rebound));
   const double in_vacuum = std::sqrt(rebound / drop.height);
   const auto air = flights.in_air(drop.series, drop.diameter);
   drop.velocity =
       air ? air->fall(drop.height).speed : std::sqrt(2.0 * flights.gravity() * drop.height);
   const double e = air ? air->launch_for_height(rebound) / drop.velocity : in_vacuum;
-  if (!(rebound > 0.0) || e < request.captured_below) {
+  if (!(rebound > 0.0) || e < captured_below) {
     drop.captured = 1.0;
     return drop;
   }
@@ -152,11 +148,8 @@ std::vector<Drops> joined(const std::vector<Drops>& drops) {
 /// @param shared other points have the same drop height: its error is then an error of V of the
 ///   setting, and no part of the error of e
 ImportedPoint mean_of(const Drops& drops, bool shared) {
-  ImportedPoint point;
-  point.series = drops.series;
-  point.line = drops.line;
-  point.value[Quantity::diameter] = drops.diameter;
-  point.value[Quantity::incident_velocity] = drops.velocity;
+  ImportedPoint point =
+      imported_point(drops.series, drops.line, drops.diameter, drops.velocity, std::nullopt);
   if (drops.height_sd > 0.0) {
     point.value[shared ? Quantity::setting_velocity_sd : Quantity::velocity_sd] =
         0.5 * drops.velocity * drops.height_sd / drops.height;
@@ -181,19 +174,20 @@ struct Flight {
   std::size_t row = 0;
 };
 
+/// The time of a bounce, and its number if the file counts them.
+struct Bounce {
+  double time = 0.0;  ///< [s]
+  std::optional<double> number;
+};
+
 /// The flights of one ball after its release.
 struct Launch {
   std::string name;
   std::optional<double> release;  ///< height [m]
   std::optional<double> diameter;
-  std::vector<Flight> flights;  ///< by number of the bounce
-  double next = 1.0;            ///< number of the next bounce, if the file does not count them
-};
-
-/// The time of a bounce, and its number if the file counts them.
-struct Bounce {
-  double time = 0.0;  ///< [s]
-  std::optional<double> number;
+  std::vector<Flight> flights = {};     ///< by number of the bounce
+  double next = 1.0;                    ///< number of the next bounce, if the file has none
+  std::optional<Bounce> last_bounce{};  ///< if the file has times
 };
 
 /// Sorts the flights by the number of their bounce. @throws InputError if a number appears twice
@@ -211,10 +205,15 @@ void sort_flights(const ImportTable& table, Launch& launch) {
              "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
 }
 
+/// The column of the times of flights or bounces.
+std::string time_column(const ImportTable& table) {
+  return table.has("interval") ? "interval" : "time";
+}
+
 std::vector<Launch> read_launches(const ImportTable& table) {
+  const std::string column = time_column(table);
   std::vector<Launch> launches;
   std::map<std::string, std::size_t> index;
-  std::map<std::string, Bounce> last;  // of each launch, when times are given
   for (std::size_t r = 0; r < table.size(); ++r) {
     std::string name = table.name(r, "launch");
     if (!table.has("launch") && table.has_replicates()) {
@@ -222,40 +221,37 @@ std::vector<Launch> read_launches(const ImportTable& table) {
     }
     const auto [known, added] = index.try_emplace(name, launches.size());
     if (added) {
-      launches.push_back(
-          {name, table.value(r, "release_height"), table.value(r, "diameter"), {}, 1.0});
+      launches.push_back({name, table.value(r, "release_height"), table.value(r, "diameter")});
     }
     Launch& launch = launches[known->second];
     const std::optional<double> number = table.value(r, "bounce");
-    double duration = 0.0;
-    if (table.lacks(r, table.has("interval") ? "interval" : "time")) {
-      last.erase(name);  // a bounce that was not recorded
+    if (table.lacks(r, column)) {
+      launch.last_bounce.reset();  // a bounce that was not recorded
       ++launch.next;
       continue;
     }
-    if (table.has("interval")) {
-      duration = table.positive(r, "interval");
+    double duration = 0.0;
+    if (column == "interval") {
+      duration = table.positive(r, column);
     } else {
-      const Bounce now{table.needed(r, "time"), number};
-      const auto [before, first] = last.try_emplace(name, now);
-      if (first) continue;  // it begins a flight
-      const Bounce previous = std::exchange(before->second, now);
-      if (number && previous.number && *number != *previous.number + 1.0) {
-        launch.next += *number - *previous.number;
+      const Bounce now{table.needed(r, column), number};
+      const std::optional<Bounce> previous = std::exchange(launch.last_bounce, now);
+      if (!previous) continue;  // it begins a flight
+      if (number && previous->number && *number != *previous->number + 1.0) {
+        launch.next += *number - *previous->number;
         continue;  // bounces between them were missed
       }
-      duration = now.time - previous.time;
+      duration = now.time - previous->time;
       if (!(duration > 0.0)) {
         table.fail(
-            r, "time", fmt::format("a flight of {:g} s", duration),
+            r, column, fmt::format("a flight of {:g} s", duration),
             "the times of one launch have to ascend",
             "state with --map launch=COLUMN which rows belong together, or correct the time");
       }
     }
-    const bool numbered_by_end = table.has("time");
-    const double bounce = number ? *number - (numbered_by_end ? 1.0 : 0.0) : launch.next;
+    const double before = column == "time" ? 1.0 : 0.0;  // a time is that of the end of a flight
+    launch.flights.push_back({duration, number ? *number - before : launch.next, r});
     ++launch.next;
-    launch.flights.push_back({duration, bounce, r});
   }
   for (Launch& launch : launches) sort_flights(table, launch);
   return launches;
@@ -321,12 +317,8 @@ std::vector<ReleaseCheck> mean_checks(
 ImportedPoint point_after_release(const Launch& launch, const FirstBounce& bounce,
                                   const ImportTable& table, const StatedError& time,
                                   const StatedError& drop) {
-  ImportedPoint point;
-  point.series = launch.name;
-  point.line = table.line(launch.flights.front().row);
-  point.value[Quantity::diameter] = launch.diameter;
-  point.value[Quantity::incident_velocity] = bounce.velocity;
-  point.value[Quantity::restitution] = bounce.check.first;
+  ImportedPoint point = imported_point(launch.name, table.line(launch.flights.front().row),
+                                       launch.diameter, bounce.velocity, bounce.check.first);
   const double of_height = 0.5 * drop.of(bounce.check.height) / bounce.check.height;
   const double duration = launch.flights.front().duration;
   const double of_time = std::sqrt(2.0) * time.of(duration) / duration;
@@ -364,15 +356,16 @@ std::vector<std::string> suspected_gaps(const Launch& launch,
 /// The point of the bounce between two successive flights.
 ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch& launch,
                              const ImportTable& table, const StatedError& time, Flights& flights) {
+  const std::string column = time_column(table);
   const double g = flights.gravity();
   const double e_vacuum = back.duration / in.duration;
   if (e_vacuum > limits::restitution.upper) {
-    table.fail(back.row, table.has("time") ? "time" : "interval",
+    table.fail(back.row, column,
                fmt::format("restitution = {:.3g}: a flight of {:g} s after one of {:g} s", e_vacuum,
                            back.duration, in.duration),
                "no flight is longer than the one before; a bounce between them is missing, or they "
                "are of two launches",
-               table.has("time")
+               column == "time"
                    ? "put a row with an empty time before this one: the launch is then split there"
                    : "leave the cell empty: the launch is then split there");
   }
@@ -382,16 +375,10 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   if (const auto air = flights.in_air(launch.name, launch.diameter)) {
     v = air->return_speed(air->launch_for_duration(in.duration));
     e = air->launch_for_duration(back.duration) / v;
-    flights.note_drag(table, back.row, table.has("time") ? "time" : "interval", *air, v, e,
-                      e_vacuum);
+    flights.note_drag(table, back.row, column, *air, v, e, e_vacuum);
   }
-  ImportedPoint point;
-  point.series = launch.name;
-  point.line = table.line(back.row);
-  point.value[Quantity::diameter] = launch.diameter;
-  point.value[Quantity::incident_velocity] = v;
-  point.value[Quantity::restitution] = e;
-  if (table.has("time")) point.launch = launch.name;
+  ImportedPoint point = imported_point(launch.name, table.line(back.row), launch.diameter, v, e);
+  if (column == "time") point.launch = launch.name;
   if (time.stated()) {
     const double tau = time.of(in.duration);
     const double sd_vacuum =
@@ -413,18 +400,18 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
                               {"rebound_height", Dimension::length, true},
                               {"drop_height_sd", Dimension::length},
                               {"rebound_height_sd", Dimension::length}});
-  const HeightErrors errors = {
-      stated_error(request.drop_error, Dimension::length, "--drop-error"),
-      stated_error(request.rebound_error, Dimension::length, "--rebound-error")};
+  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
+  const StatedError rebound =
+      stated_error(request.rebound_error, Dimension::length, "--rebound-error");
   Flights flights(request, sphere);
   std::vector<Drops> drops;
-  bool stated = errors.drop.stated();
+  bool stated = drop.stated();
   for (std::size_t r = 0; r < table.size(); ++r) {
     if (table.lacks(r, "drop_height") || table.lacks(r, "rebound_height")) {
       table.leave_out(r);
       continue;
     }
-    drops.push_back(read_drop(table, r, request, errors, flights));
+    drops.push_back(read_drop(table, r, drop, rebound, request.captured_below, flights));
     stated = stated || drops.back().height_sd > 0.0;
   }
   if (request.average) drops = joined(drops);

@@ -75,12 +75,6 @@ Provenance provenance_for(const ImportRequest& request,
                    "give --provenance measured, or digitised if they were read off a figure");
 }
 
-/// The SI value of "5mm", or of a number in SI units.
-double value_or_number(const std::string& word, Dimension dimension, const std::string& option) {
-  const auto number = parse_number(word);
-  return number ? *number : value_with_unit(word, dimension, option);
-}
-
 /// Writes the stated conditions. Flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
@@ -101,9 +95,11 @@ void put_conditions(const ImportRequest& request, Json& system) {
       throw InputError({}, fmt::format("--condition {} names no condition", quote(word)), "",
                        did_you_mean(pair ? pair->first : word, all_names<Condition>()));
     }
+    const auto number = parse_number(pair->second);  // in SI units
     system["conditions"][pair->first] =
-        value_or_number(pair->second, dimension_of(quantity_of(*condition)),
-                        fmt::format("--condition {}", pair->first));
+        number ? *number
+               : value_with_unit(pair->second, dimension_of(quantity_of(*condition)),
+                                 fmt::format("--condition {}", pair->first));
   }
 }
 

@@ -106,35 +106,35 @@ std::string utf8_text(const ImportRequest& request, std::vector<ImportNote>& not
   }
 }
 
-/// A line of a text without its end.
-struct Line {
-  std::size_t begin = 0;
-  std::size_t end = 0;
+/// The lines of `text` that are not blank, without their ends. They are views of `text`, whose
+/// lines may be blanked but not moved.
+using Lines = std::vector<std::string_view>;
 
-  std::string_view of(const std::string& text) const {
-    return trimmed(std::string_view(text).substr(begin, end - begin));
-  }
-};
-
-/// The lines that are not blank.
-std::vector<Line> lines_of(const std::string& text) {
-  std::vector<Line> lines;
+Lines lines_of(std::string_view text) {
+  Lines lines;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    if (const Line line{at, end}; !line.of(text).empty()) lines.push_back(line);
+    const std::string_view line = text.substr(at, end - at);
+    if (!trimmed(line).empty()) lines.push_back(line);
     at = end + 1;
   }
   return lines;
 }
 
+bool is_comment(std::string_view line) { return trimmed(line).starts_with('#'); }
+
+/// Replaces a line of `text` by blanks.
+void blank(std::string& text, std::string_view line) {
+  std::fill_n(text.begin() + (line.data() - text.data()), line.size(), ' ');
+}
+
 /// The delimiter in a first line "sep=;", which is then blanked.
-std::optional<char> take_separator(std::string& text, std::vector<Line>& lines) {
+std::optional<char> take_separator(std::string& text, Lines& lines) {
   if (lines.empty()) return std::nullopt;
-  const std::string_view first = lines.front().of(text);
+  const std::string_view first = trimmed(lines.front());
   if (!first.starts_with("sep=") || first.size() != 5) return std::nullopt;
   const char delimiter = first.back();
-  std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(lines.front().begin),
-              lines.front().end - lines.front().begin, ' ');
+  blank(text, lines.front());
   lines.erase(lines.begin());
   return delimiter;
 }
@@ -164,8 +164,7 @@ bool has_number(const CsvRow& row, const NumberFormat& format) {
 
 /// The delimiter that gives all lines the same number of cells, except for a title above the
 /// header. If there is none, the most frequent delimiter of the first line.
-char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
-                      const NumberFormat& format) {
+char likely_delimiter(const Lines& lines, const NumberFormat& format) {
   constexpr std::size_t enough = 200;  // lines
   for (const char delimiter : {'\t', ';', ',', '|', ' '}) {
     if (format.decimal == std::string(1, delimiter)) continue;
@@ -173,11 +172,8 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
     std::size_t above = 0;
     bool even = true;
     for (std::size_t i = 0; even && i < std::min(enough, lines.size()); ++i) {
-      const std::string_view line = lines[i].of(text);
-      if (line.starts_with('#')) continue;
-      // Not Line::of, which would trim a tab and with it an empty cell at the end of the line.
-      const CsvRow cells = cells_of(
-          std::string_view(text).substr(lines[i].begin, lines[i].end - lines[i].begin), delimiter);
+      if (is_comment(lines[i])) continue;
+      const CsvRow cells = cells_of(lines[i], delimiter);
       if (width == 0 && cells.size() == 1) {
         ++above;
       } else if (width == 0) {
@@ -189,28 +185,27 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
     }
     if (even && width > 1) return delimiter;
   }
-  const auto first = std::ranges::find_if(
-      lines, [&](const Line& line) { return !line.of(text).starts_with('#'); });
-  return first == lines.end() ? ',' : delimiter_of(first->of(text));
+  const auto first = std::ranges::find_if_not(lines, is_comment);
+  return first == lines.end() ? ',' : delimiter_of(trimmed(*first));
 }
 
 /// Blanks the lines that begin with '#', except for one that is the header.
 /// @throws InputError for such a line below the header that could be a row
-void blank_comments(std::string& text, const std::vector<Line>& lines, char delimiter,
+void blank_comments(std::string& text, const Lines& lines, char delimiter,
                     const ImportRequest& request, std::vector<ImportNote>& notes) {
-  const auto is_comment = [&](const Line& line) { return line.of(text).starts_with('#'); };
   const auto first = std::ranges::find_if_not(lines, is_comment);
   if (first == lines.end()) return;
   const auto last = std::find_if_not(lines.rbegin(), lines.rend(), is_comment);
-  const std::size_t width = cells_of(last->of(text), delimiter).size();
-  const bool headless = has_number(cells_of(first->of(text), delimiter), number_format(request));
+  const std::size_t width = cells_of(trimmed(*last), delimiter).size();
+  const bool headless = has_number(cells_of(trimmed(*first), delimiter), number_format(request));
   std::vector<std::string> skipped;
   for (auto line = lines.begin(); line != lines.end(); ++line) {
     if (!is_comment(*line)) continue;
-    const std::size_t at = text.find('#', line->begin);
-    const bool like_row = width > 1 && cells_of(line->of(text), delimiter).size() == width;
+    const std::string_view content = trimmed(*line);
+    const auto at = static_cast<std::size_t>(content.data() - text.data());
+    const bool like_row = width > 1 && cells_of(content, delimiter).size() == width;
     const bool heads = headless && std::next(line) == first && width > 1;
-    const CsvRow rest = cells_of(line->of(text).substr(1), delimiter);
+    const CsvRow rest = cells_of(content.substr(1), delimiter);
     if (heads && (like_row || rest.size() == width)) {
       if (rest.size() == width && !rest.front().text.empty()) text[at] = ' ';
       continue;
@@ -221,8 +216,7 @@ void blank_comments(std::string& text, const std::vector<Line>& lines, char deli
                        "it is not known whether it is a comment or a point",
                        "remove it, or write its first cell without '#'");
     }
-    std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(line->begin), line->end - line->begin,
-                ' ');
+    blank(text, *line);
     skipped.push_back(fmt::format("line {}", where.line));
   }
   if (!skipped.empty()) notes.push_back({ImportRemark::lines_skipped, skipped});
@@ -299,6 +293,17 @@ std::optional<double> ImportedPoint::restitution() const {
   const auto rebound = value[Quantity::rebound_velocity];
   if (!rebound) return value[Quantity::restitution];
   return *rebound / *value[Quantity::incident_velocity];
+}
+
+ImportedPoint imported_point(const std::string& series, int line, std::optional<double> diameter,
+                             double velocity, std::optional<double> restitution) {
+  ImportedPoint point;
+  point.series = series;
+  point.line = line;
+  point.value[Quantity::diameter] = diameter;
+  point.value[Quantity::incident_velocity] = velocity;
+  point.value[Quantity::restitution] = restitution;
+  return point;
 }
 
 std::string default_series(const ImportRequest& request) {
@@ -398,9 +403,9 @@ std::string table_text(const ImportRequest& request, std::vector<ImportNote>& no
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes) {
   const std::string file = request.file.string();
   std::string text = utf8_text(request, notes);
-  std::vector<Line> lines = lines_of(text);
+  Lines lines = lines_of(text);
   const std::optional<char> stated = take_separator(text, lines);
-  const char delimiter = stated ? *stated : likely_delimiter(text, lines, number_format(request));
+  const char delimiter = stated ? *stated : likely_delimiter(lines, number_format(request));
   blank_comments(text, lines, delimiter, request, notes);
   std::vector<CsvRow> rows;
   read_csv(text, file, delimiter, [&](const CsvRow& row) {
@@ -618,22 +623,19 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
   return scale;
 }
 
-std::pair<const CsvField*, Scale> ImportTable::cell_of(std::size_t row,
-                                                       const Source& source) const {
-  if (source.at.empty()) return {nullptr, {}};
-  const std::size_t k = std::min(row % replicates_, source.at.size() - 1);
-  return {&cells(row)[source.at[k]], source.scale.empty() ? Scale{} : source.scale[k]};
+const CsvField* ImportTable::cell_of(std::size_t row, const std::string& quantity) const {
+  const auto found = columns_.find(quantity);
+  if (found == columns_.end() || found->second.at.empty()) return nullptr;
+  const std::vector<std::size_t>& columns = found->second.at;
+  return &cells(row)[columns[std::min(row % replicates_, columns.size() - 1)]];
 }
 
-double ImportTable::number(const CsvField& cell, const std::string& text,
-                           const std::string& quantity) const {
-  return number_in({text, cell.line, cell.column}, file_, quantity, format_);
+const Scale& ImportTable::scale_in(std::size_t row, const Source& source) const {
+  return source.scale[std::min(row % replicates_, source.scale.size() - 1)];
 }
 
 bool ImportTable::lacks(std::size_t row, const std::string& quantity) const {
-  const auto found = columns_.find(quantity);
-  if (found == columns_.end()) return false;
-  const CsvField* const cell = cell_of(row, found->second).first;
+  const CsvField* const cell = cell_of(row, quantity);
   return cell != nullptr && is_unknown(cell->text);
 }
 
@@ -663,31 +665,34 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
   const auto found = columns_.find(quantity);
   if (found == columns_.end()) return error_beside(row, quantity);
   if (found->second.constant) return found->second.constant;
-  const auto [cell, scale] = cell_of(row, found->second);
-  if (is_unknown(cell->text)) return std::nullopt;
-  const auto [text, error] = value_and_error(cell->text);
+  const CsvField& cell = *cell_of(row, quantity);
+  if (is_unknown(cell.text)) return std::nullopt;
+  const auto [text, error] = value_and_error(cell.text);
   if (!error.empty()) {
     const std::string sd = error_name(quantity);
     const bool takes =
         std::ranges::any_of(known_, [&](const ImportQuantity& q) { return q.name == sd; });
     if (!takes || has(sd)) {
-      fail(row, quantity, fmt::format("{} is a value and its error", quote(cell->text)),
+      fail(row, quantity, fmt::format("{} is a value and its error", quote(cell.text)),
            takes ? fmt::format("{} has a column of its own", sd)
                  : fmt::format("no error of {} is read", quantity),
            takes ? "remove one of the two" : "remove the error");
     }
   }
-  return scale(number(*cell, text, quantity));
+  return scale_in(
+      row, found->second)(number_in({text, cell.line, cell.column}, file_, quantity, format_));
 }
 
 /// The standard deviation in the cell of its quantity: 0.02 in "0.85 ± 0.02".
 std::optional<double> ImportTable::error_beside(std::size_t row,
                                                 const std::string& quantity) const {
   for (const auto& [other, source] : columns_) {
-    if (error_name(other) != quantity || source.at.empty()) continue;
-    const auto [cell, scale] = cell_of(row, source);
-    const std::string error = value_and_error(cell->text).second;
-    if (!error.empty()) return number(*cell, error, quantity) * scale.factor;
+    if (error_name(other) != quantity || source.scale.empty()) continue;
+    const CsvField& cell = *cell_of(row, other);
+    const std::string error = value_and_error(cell.text).second;
+    if (error.empty()) continue;
+    return number_in({error, cell.line, cell.column}, file_, quantity, format_) *
+           scale_in(row, source).factor;
   }
   return std::nullopt;
 }
@@ -731,9 +736,7 @@ void ImportTable::require_one_of(const std::string& one, const std::string& othe
 
 void ImportTable::fail(std::size_t row, const std::string& quantity, const std::string& problem,
                        const std::string& why, const std::string& suggestion) const {
-  const auto found = columns_.find(quantity);
-  const CsvField* const cell =
-      found == columns_.end() ? nullptr : cell_of(row, found->second).first;
+  const CsvField* const cell = cell_of(row, quantity);
   throw InputError((cell != nullptr ? *cell : cells(row).front()).in(file_), problem, why,
                    suggestion);
 }

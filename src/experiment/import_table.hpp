@@ -61,6 +61,10 @@ struct ImportedPoints {
   std::vector<ImportNote> notes;
 };
 
+/// A point of one impact, or the mean of several. @param restitution nullopt: all were captured
+ImportedPoint imported_point(const std::string& series, int line, std::optional<double> diameter,
+                             double velocity, std::optional<double> restitution);
+
 /// The name of the series if the file has none: --series, or the name of the file.
 std::string default_series(const ImportRequest& request);
 
@@ -163,9 +167,9 @@ class ImportTable {
   std::size_t column_named(const std::string& name) const;
   Scale scale_of(const ImportQuantity& quantity, const std::string& unit, std::size_t column) const;
   const CsvRow& cells(std::size_t row) const { return rows_[row / replicates_]; }
-  /// The cell of a quantity in a row, and the scale of its column.
-  std::pair<const CsvField*, Scale> cell_of(std::size_t row, const Source& source) const;
-  double number(const CsvField& cell, const std::string& text, const std::string& quantity) const;
+  /// The cell of a quantity in a row; null if the quantity has no column.
+  const CsvField* cell_of(std::size_t row, const std::string& quantity) const;
+  const Scale& scale_in(std::size_t row, const Source& source) const;
   std::optional<double> error_beside(std::size_t row, const std::string& quantity) const;
 
   std::vector<ImportNote> notes_;

@@ -251,15 +251,8 @@ class TrackReader {
     const double since[2] = {time - arcs[k].middle, time - arcs[k + 1].middle};
     const std::array<std::ptrdiff_t, 5> places = {fit.first[k], fit.first[k] + 1, fit.first[k + 1],
                                                   fit.first[k + 1] + 1, fit.values.size() - 1};
-    Eigen::Matrix<double, 5, 1> known;
-    Eigen::Matrix<double, 5, 5> covariance;
-    for (int i = 0; i < 5; ++i) {
-      known(i) = fit.values(places[static_cast<std::size_t>(i)]);
-      for (int j = 0; j < 5; ++j) {
-        covariance(i, j) = fit.variance * fit.covariance(places[static_cast<std::size_t>(i)],
-                                                         places[static_cast<std::size_t>(j)]);
-      }
-    }
+    const Eigen::Matrix<double, 5, 1> known = fit.values(places);
+    const Eigen::Matrix<double, 5, 5> covariance = fit.variance * fit.covariance(places, places);
     // In m/s, also if the heights have no scale: a is then g.
     const auto answer = [&](const Eigen::Matrix<double, 5, 1>& values) {
       Meeting meeting = meeting_of(values, since[0], since[1]);
@@ -281,12 +274,8 @@ class TrackReader {
       slope_e(i) = (answer(up).e - answer(down).e) / (2.0 * step);
       slope_v(i) = (answer(up).velocity - answer(down).velocity) / (2.0 * step);
     }
-    ImportedPoint point;
-    point.series = track.name;
-    point.line = samples[at].line;
-    point.value[Quantity::diameter] = track.diameter;
-    point.value[Quantity::incident_velocity] = best.velocity;
-    point.value[Quantity::restitution] = best.e;
+    ImportedPoint point =
+        imported_point(track.name, samples[at].line, track.diameter, best.velocity, best.e);
     const double sd_e = std::sqrt(slope_e.dot(covariance * slope_e));
     const double sd_v = std::sqrt(slope_v.dot(covariance * slope_v));
     if (sd_e > 0.0) point.value[Quantity::restitution_sd] = sd_e;

@@ -100,6 +100,7 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Pas
 struct Followers {
   std::vector<Link> links;
   double by_chance = 0.0;  ///< number found at wrong times (mean of 0.8 and 1.25 times the time)
+  double gain = 0.0;       ///< number of links less twice the number by chance
   bool usable = false;     ///< more than by chance, and the stream was not too crowded to search
 };
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/statistics.hpp"
 #include "experiment/flight.hpp"
@@ -9,27 +11,9 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_to_narrow = 20;
+using std::numbers::sqrt2;
+
 constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; a larger search is given up
-constexpr double sqrt2 = 1.4142135623730951;
-
-/// The index after the last passage of the series of `passages[i]`, for ascending i.
-class SeriesEnds {
- public:
-  explicit SeriesEnds(const std::vector<Passage>& passages) : passages_(passages) {}
-  std::size_t of(std::size_t i) {
-    if (i >= end_ || end_ == 0) {
-      while (end_ < passages_.size() &&
-             (end_ <= i || passages_[end_].series == passages_[i].series))
-        ++end_;
-    }
-    return end_;
-  }
-
- private:
-  const std::vector<Passage>& passages_;
-  std::size_t end_ = 0;
-};
 
 double squared(double x) { return x * x; }
 
@@ -55,11 +39,9 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages
                                             double scale, std::size_t stride = 1) {
   const double height = model.height();
   std::vector<Link> links;
-  SeriesEnds ends(passages);
   std::size_t visits = 0;
   for (std::size_t j = 0; j < passages.size(); ++j) {
     const Passage& up = passages[j];
-    const std::size_t end = ends.of(j);
     if (up.velocity >= 0.0 || j % stride != 0) continue;
     const double speed = -up.velocity;
     const double sd = local_scatter(velocity_sd, speed, height, model);
@@ -67,10 +49,12 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages
                                    std::min(widest_agreement * sqrt2 * sd, 0.6));
     const double middle = scale * flight::time_above(speed);
     const auto first = std::lower_bound(
-        passages.begin() + static_cast<std::ptrdiff_t>(j + 1),
-        passages.begin() + static_cast<std::ptrdiff_t>(end), up.time + middle * (1.0 - widest),
-        [](const Passage& e, double time) { return e.time < time; });
-    for (auto k = static_cast<std::size_t>(first - passages.begin()); k < end; ++k) {
+        passages.begin() + static_cast<std::ptrdiff_t>(j + 1), passages.end(),
+        up.time + middle * (1.0 - widest), [&up](const Passage& later, double time) {
+          return std::tie(later.series, later.time) < std::tie(up.series, time);
+        });
+    for (auto k = static_cast<std::size_t>(first - passages.begin());
+         k < passages.size() && passages[k].series == up.series; ++k) {
       const Passage& down = passages[k];
       if (++visits > most_visits) return std::nullopt;
       if (down.time > up.time + middle * (1.0 + widest)) break;
@@ -102,16 +86,10 @@ double count_below(const std::vector<double>& sorted, double cost) {
 }
 
 /// Runs `search(scale)` for the right time and for two wrong times, which give links by chance
-/// only. Keeps the links up to the cost with the largest gain, where a true link counts 1 and one
-/// by chance -1.
-struct Judged {
-  Followers followers;
-  double gain = 0.0;
-};
-
+/// only. Keeps the links up to the cost with the largest gain.
 template <class Search>
-Judged judged(const Search& search) {
-  Judged result;
+Followers judged(const Search& search) {
+  Followers result;
   const auto links = search(1.0);
   const auto early = links ? search(0.8) : std::nullopt;
   const auto late = early ? search(1.25) : std::nullopt;
@@ -130,24 +108,11 @@ Judged judged(const Search& search) {
     limit = cost;
   }
   for (const Link& link : *links) {
-    if (link.cost <= limit) result.followers.links.push_back(link);
+    if (link.cost <= limit) result.links.push_back(link);
   }
-  result.followers.by_chance = by_chance(limit);
-  result.followers.usable = limit > 0.0;
+  result.by_chance = by_chance(limit);
+  result.usable = limit > 0.0;
   return result;
-}
-
-double scatter_of(const std::vector<Link>& links, double otherwise) {
-  if (links.size() < fewest_to_narrow) return otherwise;
-  std::vector<double> ratios;
-  std::vector<double> lateness;
-  for (const Link& link : links) {
-    lateness.push_back(link.first);
-    ratios.push_back(link.second);
-  }
-  // The scatter of the ratio of two speeds is sqrt(2) times that of one, of their mean 1 / sqrt(2).
-  const double sd = std::max(robust_sd(ratios) / sqrt2, robust_sd(lateness) * sqrt2);
-  return std::clamp(sd, 1e-3, otherwise);
 }
 
 double widest_scatter(const PairingOptions& options) {
@@ -157,7 +122,18 @@ double widest_scatter(const PairingOptions& options) {
 }  // namespace
 
 double velocity_scatter(const Followers& returns, const PairingOptions& options) {
-  return scatter_of(returns.links, widest_scatter(options));
+  constexpr std::size_t fewest_to_narrow = 20;
+  const double widest = widest_scatter(options);
+  if (returns.links.size() < fewest_to_narrow) return widest;
+  std::vector<double> ratios;
+  std::vector<double> lateness;
+  for (const Link& link : returns.links) {
+    lateness.push_back(link.first);
+    ratios.push_back(link.second);
+  }
+  // The scatter of the ratio of two speeds is sqrt(2) times that of one, of their mean 1 / sqrt(2).
+  const double sd = std::max(robust_sd(ratios) / sqrt2, robust_sd(lateness) * sqrt2);
+  return std::clamp(sd, 1e-3, widest);
 }
 
 Followers find_returns(const std::vector<Passage>& passages, const PairingOptions& options,
@@ -175,8 +151,7 @@ Followers find_returns(const std::vector<Passage>& passages, const PairingOption
     most = gain;
     sd = trial;
   }
-  return judged([&](double scale) { return returns_at(passages, options, model, sd, scale); })
-      .followers;
+  return judged([&](double scale) { return returns_at(passages, options, model, sd, scale); });
 }
 
 Followers find_unseen(const std::vector<Passage>& passages, const PairingModel& model,
@@ -185,17 +160,16 @@ Followers find_unseen(const std::vector<Passage>& passages, const PairingModel& 
   const double height = model.height();
   const auto search = [&](double scale) -> std::optional<std::vector<Link>> {
     std::vector<Link> links;
-    SeriesEnds ends(passages);
     std::size_t visits = 0;
     for (std::size_t i = 0; i < passages.size(); ++i) {
       if (!open_down[i]) continue;
       const Passage& down = passages[i];
-      const std::size_t end = ends.of(i);
       const double latest = down.time + flight::longest_round_trip(down.velocity, height) +
                             1.3 * scale * flight::time_above(down.velocity);
-      for (std::size_t k = i + 1; k < end && passages[k].time <= latest; ++k) {
-        if (++visits > most_visits) return std::nullopt;
+      for (std::size_t k = i + 1; k < passages.size(); ++k) {
         const Passage& next = passages[k];
+        if (next.series != down.series || next.time > latest) break;
+        if (++visits > most_visits) return std::nullopt;
         if (!open_next[k] || next.velocity > down.velocity) continue;
         const double below = flight::round_trip(down.velocity, next.velocity, height);
         const double above = next.time - down.time - below;
@@ -212,7 +186,7 @@ Followers find_unseen(const std::vector<Passage>& passages, const PairingModel& 
     }
     return match(links, passages.size(), worst_link).links;
   };
-  return judged(search).followers;
+  return judged(search);
 }
 
 }  // namespace recoil

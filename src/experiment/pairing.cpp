@@ -60,31 +60,6 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
   return count;
 }
 
-/// Numbers the passages down: 1 from the dispenser, otherwise one more than the passage before.
-class Chains {
- public:
-  explicit Chains(std::size_t passages) : previous_(passages, unassigned), number_(passages, 0) {}
-
-  void follow(std::uint32_t later, std::uint32_t earlier) { previous_[later] = earlier; }
-
-  int number(std::uint32_t down) {
-    std::vector<std::uint32_t> chain;
-    std::uint32_t at = down;
-    while (number_[at] == 0 && previous_[at] != unassigned) {
-      chain.push_back(at);
-      at = previous_[at];
-    }
-    if (number_[at] == 0) number_[at] = 1;
-    int value = number_[at];
-    for (auto it = chain.rbegin(); it != chain.rend(); ++it) number_[*it] = ++value;
-    return number_[down];
-  }
-
- private:
-  std::vector<std::uint32_t> previous_;
-  std::vector<int> number_;
-};
-
 Impact impact_of(const std::vector<Passage>& passages, const Link& pair, double height) {
   const Passage& down = passages[pair.from];
   const Passage& up = passages[pair.to];
@@ -120,23 +95,31 @@ Search search_pairs(const std::vector<Passage>& passages, const PairingOptions& 
   return search;
 }
 
-/// The number of every passage down, and which unpaired ones came back from an undetected rebound.
+/// The passages of the same sphere before and after each passage down.
 struct Later {
-  Chains chains;
-  std::vector<bool> came_back;
+  std::vector<std::uint32_t> previous;  ///< `unassigned`: it comes from the dispenser
+  std::vector<bool> came_back;          ///< it is unpaired, but rebounded undetected
+
+  /// The number of the impact of every passage down: one more than that of the previous passage,
+  /// which has a lower index.
+  std::vector<int> numbers() const {
+    std::vector<int> number(previous.size(), 1);
+    for (std::size_t i = 0; i < number.size(); ++i) {
+      if (previous[i] != unassigned) number[i] = number[previous[i]] + 1;
+    }
+    return number;
+  }
 };
 
 /// @param pairs the links between passages down and passages up
 Later find_later_impacts(const std::vector<Passage>& passages, const Search& search,
                          const std::vector<Link>& pairs, PairingResult& result) {
-  Later later{Chains(passages.size()), std::vector<bool>(passages.size(), false)};
-  std::vector<std::uint32_t> down_of(passages.size(),
-                                     unassigned);  // passage up -> its passage down
-  std::vector<bool> open_down(passages.size(), false);
-  std::vector<bool> open_next(passages.size(), false);
-  for (std::size_t i = 0; i < passages.size(); ++i) {
-    open_down[i] = open_next[i] = passages[i].velocity > 0.0;
-  }
+  Later later{std::vector<std::uint32_t>(passages.size(), unassigned),
+              std::vector<bool>(passages.size(), false)};
+  std::vector<std::uint32_t> down_of = later.previous;  // passage up -> its passage down
+  std::vector<bool> open_down;
+  for (const Passage& passage : passages) open_down.push_back(passage.velocity > 0.0);
+  std::vector<bool> open_next = open_down;
   for (const Link& pair : pairs) {
     down_of[pair.to] = pair.from;
     open_down[pair.from] = false;
@@ -157,21 +140,22 @@ Later find_later_impacts(const std::vector<Passage>& passages, const Search& sea
   for (const Link& link : returns.links) {
     // A rebound without its passage down stands for that passage, which was not detected.
     const std::uint32_t earlier = down_of[link.from];
-    later.chains.follow(link.to, earlier != unassigned ? earlier : link.from);
+    later.previous[link.to] = earlier != unassigned ? earlier : link.from;
     open_next[link.to] = false;
   }
   const Followers unseen =
       find_unseen(passages, model, open_down, open_next, result.velocity_spread);
   for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
-    later.chains.follow(link.to, link.from);
+    later.previous[link.to] = link.from;
     later.came_back[link.from] = true;
   }
   return later;
 }
 
 void list_impacts(const std::vector<Passage>& passages, const std::vector<Link>& pairs,
-                  Later& later, PairingResult& result) {
+                  const Later& later, PairingResult& result) {
   const PairingOptions& options = result.options;
+  const std::vector<int> numbers = later.numbers();
   const auto used = [&](std::uint32_t down, int number) {
     return (options.keep_later || number == 1) &&
            passages[down].velocity >= options.threshold.value_or(0.0);
@@ -180,7 +164,7 @@ void list_impacts(const std::vector<Passage>& passages, const std::vector<Link>&
   for (const Link& pair : pairs) {
     paired[pair.from] = true;
     Impact impact = impact_of(passages, pair, result.height);
-    impact.number = later.chains.number(pair.from);
+    impact.number = numbers[pair.from];
     impact.used = used(pair.from, impact.number) && impact.angle <= options.angle.value_or(M_PI);
     result.impacts.push_back(impact);
   }
@@ -189,7 +173,7 @@ void list_impacts(const std::vector<Passage>& passages, const std::vector<Link>&
     Unpaired lone;
     lone.down = i;
     lone.incident = flight::surface_velocity(passages[i].velocity, result.height);
-    lone.number = later.chains.number(i);
+    lone.number = numbers[i];
     lone.came_back = later.came_back[i];
     lone.used = used(i, lone.number);
     result.unpaired.push_back(lone);
@@ -222,7 +206,7 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
   result.orphans = result.up - pairs.links.size();
   result.missed_share =
       result.up > 0 ? static_cast<double>(result.orphans) / static_cast<double>(result.up) : 0.0;
-  Later later = find_later_impacts(passages, search, pairs.links, result);
+  const Later later = find_later_impacts(passages, search, pairs.links, result);
   list_impacts(passages, pairs.links, later, result);
 
   const DecoyCount decoys = try_decoys(passages, search.options, model, result.down);
