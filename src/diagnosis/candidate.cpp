@@ -112,6 +112,7 @@ void keep_possible(ParameterSpec& spec, const AllowedValues& allowed) {
 
 /// Relative scatter of single impacts among the slowest rebounds [1], from the stated sd sqrt(n) /
 /// e: the root mean square over the slowest 5 %, at least three. Nullopt if fewer points state it.
+/// It decides which rebounds are too slow to be detected.
 std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datasets) {
   constexpr std::size_t fewest = 3;
   std::vector<std::pair<double, double>> stated;  // rebound velocity, square of the scatter
@@ -131,18 +132,19 @@ std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datas
   return std::sqrt(sum / static_cast<double>(stated.size()));
 }
 
-/// Sets the start to the stated scatter of slow rebounds, which decides the rebounds that are too
-/// slow to be detected.
-void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& spec) {
-  const std::optional<double> stated = scatter_of_slow_rebounds(datasets);
-  if (stated) spec.initial = std::clamp(*stated, spec.lower, spec.upper);
-}
-
 }  // namespace
 
 std::shared_ptr<const Discrepancy> nothing_shared() {
   static const auto nothing = std::make_shared<const Discrepancy>();
   return nothing;
+}
+
+std::vector<std::size_t> Refit::moving_slots() const {
+  std::vector<std::size_t> slots;
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    if (moving[j]) slots.push_back(j);
+  }
+  return slots;
 }
 
 bool Candidate::adds(const std::string& id) const {
@@ -169,15 +171,12 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
   std::vector<const Mechanism*> possible;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const auto& own = spec.mechanisms;
-    if (!mechanism.works_with(spec.adhesion)) continue;
-    if (std::ranges::find(own, mechanism.info.id) != own.end()) continue;
+    const bool is_new = std::ranges::find(own, mechanism.info.id) == own.end();
     // If the sizes are stated, a mechanism for mixed sizes has nothing to explain.
-    if (std::ranges::none_of(model.surroundings, [&](const Surroundings& at) {
-          return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
-        })) {
-      continue;
-    }
-    possible.push_back(&mechanism);
+    const bool acts = std::ranges::any_of(model.surroundings, [&](const Surroundings& at) {
+      return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
+    });
+    if (is_new && acts && mechanism.works_with(spec.adhesion)) possible.push_back(&mechanism);
   }
   return possible;
 }
@@ -236,7 +235,9 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
                         std::ranges::find(before, parameter->mechanism->info.id) == before.end();
     if (is_new) {
       stated.free = stated.free || (release && stated.parameter->searched);
-      if (parameter->is_scatter_of_rebounds) take_stated_scatter(datasets, stated);
+      const std::optional<double> scatter =
+          parameter->is_scatter_of_rebounds ? scatter_of_slow_rebounds(datasets) : std::nullopt;
+      if (scatter) stated.initial = std::clamp(*scatter, stated.lower, stated.upper);
     }
     candidate.spec.parameters.push_back(stated);
   }
@@ -295,11 +296,10 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
       starts.push_back(std::move(start));
     }
   }
-  const LeastSquaresOptions options = descent();
   Refit best;
   best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {
-    LeastSquaresResult run = minimise(problem, start, options);
+    LeastSquaresResult run = minimise(problem, start, descent());
     if (!run.ended() && std::isfinite(run.sum_of_squares)) {
       run = minimise(problem, run.theta, careful_descent());
     }
@@ -331,18 +331,13 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   return best;
 }
 
-double log_deviance(const Observations& data, double chi2) {
-  if (data.noise.sd_stated) return chi2;
-  const auto n = static_cast<double>(data.points.size());
-  return n * std::log(std::max(chi2, 1e-300) / n);
-}
-
 double corrected_criterion(const Observations& data, double chi2, int free_count) {
   const auto n = static_cast<double>(data.points.size());
   const double k = free_count + (data.noise.sd_stated ? 0 : 1);
   const double spare = n - k - 1.0;
   if (spare <= 0.0) return INFINITY;
-  return log_deviance(data, chi2) + 2.0 * k + 2.0 * k * (k + 1.0) / spare;
+  const double deviance = data.noise.sd_stated ? chi2 : n * std::log(std::max(chi2, 1e-300) / n);
+  return deviance + 2.0 * k + 2.0 * k * (k + 1.0) / spare;
 }
 
 double corrected_criterion(const Observations& data, const Refit& refit, int free_count) {

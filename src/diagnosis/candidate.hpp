@@ -74,6 +74,9 @@ struct Refit {
   std::vector<bool> moving;
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
 
+  /// The indices of the moving slots.
+  std::vector<std::size_t> moving_slots() const;
+
   RECOIL_FIELDS(usable, theta, chi2, residuals, jacobian, moving)
 };
 
@@ -93,12 +96,10 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy = nothing_shared());
 
-/// -2 ln likelihood up to a constant: the deviance if standard deviations are stated; n ln(deviance
-/// / n) if only their ratios are known and their scale is estimated.
-double log_deviance(const Observations& data, double chi2);
-
-/// log_deviance + 2 k + 2 k (k + 1) / (n - k - 1), with k the number of free parameters (including
-/// the scale if it is estimated): Hurvich & Tsai (1989), Biometrika 76, 297-307.
+/// D + 2 k + 2 k (k + 1) / (n - k - 1), with k the number of free parameters (including the scale
+/// if it is estimated): Hurvich & Tsai (1989), Biometrika 76, 297-307. D is -2 ln likelihood up to
+/// a constant: the deviance if standard deviations are stated; n ln(deviance / n) if only their
+/// ratios are known and their scale is estimated.
 double corrected_criterion(const Observations& data, double chi2, int free_count);
 
 /// The same for a refit, including the determinant of its covariance in the likelihood.

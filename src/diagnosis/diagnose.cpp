@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -11,14 +12,13 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "diagnosis/diagnosis_result.hpp"
-#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/next_experiments.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/trial.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "estimate/predictor.hpp"
 #include "mechanism/mechanism.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/noise_alternatives.hpp"
@@ -34,6 +34,53 @@ constexpr double margin_at_one_size = 20.0;
 double quick_p_value(const SearchBase& base, const Refit& refit) {
   return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, base.noise)
       .p_value;
+}
+
+/// Adds the largest effect of `mechanism` in every dataset.
+void add_effects(const SearchBase& base, const Mechanism& mechanism,
+                 std::vector<ExpectedEffect>& all) {
+  const Candidate candidate =
+      make_candidate(base.spec, base.datasets, {std::string(mechanism.info.id)});
+  const ImpactModel& model = candidate.model;
+  const std::vector<double> with = carried_over(base.candidate.model, base.refit.theta, model);
+  const std::vector<double> without = without_mechanism(model, with, mechanism);
+  const std::vector<Prediction> acted = predict(model, with, candidate.impacts, false);
+  const std::vector<Prediction> plain = predict(model, without, candidate.impacts, false);
+  for (std::size_t d = 0; d < base.datasets.size(); ++d) {
+    std::optional<ExpectedEffect> most;
+    for (std::size_t i = 0; i < candidate.impacts.size(); ++i) {
+      const PointConditions& at = candidate.impacts[i];
+      if (at.dataset != d || !acted[i].usable() || !plain[i].usable()) continue;
+      const ParameterSlot& strength = strength_at(model, mechanism, at);
+      if (!strength.stated || strength.initial == strength.parameter->null_value) continue;
+      const double change = acted[i].restitution() - plain[i].restitution();
+      if (most && std::abs(change) <= std::abs(most->change)) continue;
+      const Condition condition = *strength.stated;
+      most = {std::string(mechanism.info.id),
+              d,
+              condition,
+              conditions_of(base.datasets[d], at.series).of(condition).value_or(0.0),
+              at.diameter,
+              at.velocity,
+              change};
+    }
+    if (most) all.push_back(*most);
+  }
+}
+
+/// For every dataset and every mechanism whose strength its conditions state: the largest change of
+/// e by the mechanism at the parameters of the base fit, even if it is too small to be detected.
+/// The largest change first.
+std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
+  std::vector<ExpectedEffect> all;
+  for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
+    const std::vector<Parameter>& parameters = mechanism->info.parameters;
+    if (parameters.empty() || parameters.front().stated_by.empty()) continue;
+    add_effects(base, *mechanism, all);
+  }
+  std::ranges::stable_sort(all, std::ranges::greater{},
+                           [](const ExpectedEffect& one) { return std::abs(one.change); });
+  return all;
 }
 
 /// Step 1: tests whether the base model leaves structure.
@@ -59,14 +106,13 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
   diagnosis.structure = judge_structure(statistics, base.refit.residuals, statistics(simulated));
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
   diagnosis.free_form = statistics.free_form(base.refit.residuals);
+  diagnosis.free_form_p = diagnosis.structure.p_value;
   if (!diagnosis.free_form.empty()) {
     Refit without = base.refit;
     for (std::size_t i = 0; i < without.residuals.size(); ++i) {
       without.residuals[i] -= diagnosis.free_form[i];
     }
     diagnosis.free_form_p = quick_p_value(base, without);
-  } else {
-    diagnosis.free_form_p = diagnosis.structure.p_value;
   }
   return residuals.leftCols(static_cast<Eigen::Index>(simulated.size()));
 }
@@ -106,9 +152,8 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
 std::string shared_cause(const std::vector<const CandidateResult*>& found) {
   std::set<std::string> causes;
   for (const CandidateResult* c : found) {
-    const Mechanism* const only =
-        c->candidate.added.size() == 1 ? find_mechanism(c->candidate.added.front()) : nullptr;
-    causes.emplace(only == nullptr ? "" : only->info.cause);
+    const auto& added = c->candidate.added;
+    causes.emplace(added.size() == 1 ? find_mechanism(added.front())->info.cause : "");
   }
   return causes.size() == 1 ? *causes.begin() : std::string();
 }
@@ -125,14 +170,11 @@ NotSeparable several(const std::vector<const CandidateResult*>& found, bool one_
       if (std::ranges::find(rivals, id) == rivals.end()) rivals.push_back(id);
     }
   }
-  if (one_size)
-    return answer;  // one size does not identify a cause, nor what causes have in common
+  if (one_size) return answer;  // it identifies neither a cause nor what causes have in common
   for (const std::string& id : answer.rivals) {
-    const bool everywhere = std::ranges::all_of(found, [&](const auto* c) {
-      const auto& added = c->candidate.added;
-      return std::ranges::find(added, id) != added.end();
-    });
-    if (everywhere) answer.common.push_back(id);
+    if (std::ranges::all_of(found, [&](const auto* c) { return c->candidate.adds(id); })) {
+      answer.common.push_back(id);
+    }
   }
   answer.shared_cause = shared_cause(found);
   return answer;
@@ -246,10 +288,9 @@ bool pair_at_limit_fits_better(const CandidateResult& best,
 void add_close_singles(const std::vector<CandidateResult>& singles, double lead, double chance,
                        std::vector<const CandidateResult*>& found) {
   const CandidateResult& best = *found.front();
-  const auto& both = best.candidate.added;
   for (const CandidateResult& c : singles) {
     const bool possible = c.near_plausible && may_be_a_cause(c) && c.p_value <= chance;
-    const bool other = std::ranges::find(both, c.candidate.added.front()) == both.end();
+    const bool other = !best.candidate.adds(c.candidate.added.front());
     if (possible && other && c.delta_aicc <= best.delta_aicc + lead) found.push_back(&c);
   }
 }

@@ -36,15 +36,12 @@ void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
     return s.parameter == spec.parameter && !s.stated;  // the data state the others
   });
   if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
-  const bool derived = spec.is_derived() && !spec.free;
   toml::table& entry = subtable(parameters, spec.parameter->name);
   entry.insert_or_assign("free", spec.free);
-  if (spec.free) {
-    if (!entry.contains("bounds")) {
-      entry.insert("bounds", toml::array{spec.lower, spec.upper});
-    }
+  if (spec.free && !entry.contains("bounds")) {
+    entry.insert("bounds", toml::array{spec.lower, spec.upper});
   }
-  if (derived) return;
+  if (spec.is_derived() && !spec.free) return;
   const double value = fitted.theta[static_cast<std::size_t>(slot - fitted.model.slots.begin())];
   entry.insert_or_assign("initial", spec.free ? std::clamp(value, spec.lower, spec.upper) : value);
 }

@@ -9,12 +9,6 @@
 
 namespace recoil {
 
-namespace {
-
-constexpr int bands = 4;
-
-}  // namespace
-
 Verdict Diagnosis::verdict() const {
   if (answer_if<Adequate>()) return Verdict::adequate;
   if (answer_if<CauseNamed>()) return Verdict::cause_named;
@@ -53,13 +47,11 @@ const HeldOutGain* Diagnosis::gain() const {
 }
 
 std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
+  constexpr int bands = 4;
   const std::vector<Observation>& points = fitted.data.points;
-  double low = INFINITY, high = 0.0;
-  for (const Observation& point : points) {
-    low = std::min(low, point.velocity);
-    high = std::max(high, point.velocity);
-  }
-  const double width = std::log(high / low) / bands;
+  const auto [slow, fast] = std::ranges::minmax_element(points, {}, &Observation::velocity);
+  const double low = slow->velocity;
+  const double width = std::log(fast->velocity / low) / bands;
   std::map<std::tuple<std::size_t, double, int>, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int band =
@@ -102,12 +94,8 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
 
 bool has_one_size(const Observations& data) {
   constexpr double size_factor = 1.2;
-  double low = INFINITY, high = 0.0;
-  for (const Observation& point : data.points) {
-    low = std::min(low, point.diameter);
-    high = std::max(high, point.diameter);
-  }
-  return high < low * size_factor;
+  const auto [small, large] = std::ranges::minmax_element(data.points, {}, &Observation::diameter);
+  return large->diameter < small->diameter * size_factor;
 }
 
 bool tests_the_curve(const Diagnosis& diagnosis) {
@@ -129,17 +117,15 @@ bool simulations_failed(const Structure& structure) {
 
 const MisfitCell* worst_cell(const Diagnosis& diagnosis) {
   const auto& where = diagnosis.where;
-  const auto worst = std::ranges::max_element(where, [](const MisfitCell& a, const MisfitCell& b) {
-    return std::abs(a.standardised) < std::abs(b.standardised);
-  });
+  const auto worst = std::ranges::max_element(
+      where, {}, [](const MisfitCell& cell) { return std::abs(cell.standardised); });
   return worst == where.end() || std::abs(worst->standardised) < 2.0 ? nullptr : &*worst;
 }
 
 std::optional<std::size_t> dominant_point(const Diagnosis& diagnosis) {
   constexpr double most = 0.5;
   const auto& residuals = diagnosis.base.residuals;
-  const auto worst = std::ranges::max_element(
-      residuals, [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const auto worst = std::ranges::max_element(residuals, {}, [](double r) { return std::abs(r); });
   if (worst == residuals.end() || *worst * *worst < most * diagnosis.base.chi2) return std::nullopt;
   return static_cast<std::size_t>(worst - residuals.begin());
 }

@@ -8,7 +8,6 @@
 #include "core/names.hpp"
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
-#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/next_experiments.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/structure.hpp"
@@ -46,6 +45,17 @@ struct CaptureChange {
   std::size_t dataset = 0;
   double diameter = 0.0;                 ///< [m]
   std::optional<double> base, extended;  ///< [m/s]; nullopt if no sphere is captured
+};
+
+/// An effect that theory predicts from the stated conditions of the data.
+struct ExpectedEffect {
+  std::string id;  ///< id of the mechanism
+  std::size_t dataset = 0;
+  Condition condition = Condition::ambient_pressure;
+  double stated = 0.0;    ///< value of the condition, in its unit
+  double diameter = 0.0;  ///< diameter of the point with the largest effect [m]
+  double velocity = 0.0;  ///< incident velocity of that point [m/s]
+  double change = 0.0;    ///< change of e at that point [1]
 };
 
 /// The answer for all points, if outlying points were set aside.
@@ -160,10 +170,9 @@ struct Diagnosis {
   std::vector<std::string> named() const;      ///< the named causes; empty: none
   std::vector<std::string> rivals() const;     ///< the listed causes; empty: none
   std::vector<std::string> resembles() const;  ///< the causes with a similar shape; empty: none
-  std::vector<std::string> causes()
-      const;  ///< the causes of the answer, whether named, rivals or resembling
-  const ExtendedModel* extended() const;  ///< null if there is none
-  const HeldOutGain* gain() const;        ///< held-out gain of its fit; null if there is none
+  std::vector<std::string> causes() const;     ///< those of the answer: named, rivals or resembling
+  const ExtendedModel* extended() const;       ///< null if there is none
+  const HeldOutGain* gain() const;             ///< held-out gain of its fit; null if there is none
   /// The answer if it is of type One, else null.
   template <class One>
   const One* answer_if() const {

@@ -24,20 +24,15 @@ constexpr int resamplings = 1999;
 // wrong side would outweigh all others.
 constexpr double worst_miss = 5.0;
 
-/// The indices of `points` (`inside`) or of all others, in the order of the data.
-std::vector<std::size_t> indices_of(const Observations& data,
-                                    const std::vector<std::size_t>& points, bool inside) {
-  std::vector<bool> chosen(data.points.size(), false);
-  for (const std::size_t i : points) chosen[i] = true;
+/// The indices of all points but `fold`, in the order of the data.
+std::vector<std::size_t> points_outside(const Fold& fold, std::size_t points) {
+  std::vector<bool> outside(points, true);
+  for (const std::size_t i : fold.points) outside[i] = false;
   std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (chosen[i] == inside) indices.push_back(i);
+  for (std::size_t i = 0; i < points; ++i) {
+    if (outside[i]) indices.push_back(i);
   }
   return indices;
-}
-
-Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
-  return data.subset(indices_of(data, points, inside));
 }
 
 /// Subtracts from the `residuals` of a fold their prediction from the residuals `r_seen` of the
@@ -80,11 +75,9 @@ void add_size_folds(const Observations& data, std::vector<Fold>& folds) {
 }
 
 void add_velocity_folds(const Observations& data, std::vector<Fold>& folds) {
-  double low = INFINITY, high = 0.0;
-  for (const Observation& point : data.points) {
-    low = std::min(low, point.velocity);
-    high = std::max(high, point.velocity);
-  }
+  const auto [slow, fast] = std::ranges::minmax_element(data.points, {}, &Observation::velocity);
+  const double low = slow->velocity;
+  const double high = fast->velocity;
   for (std::size_t k = 0; k < velocity_bands; ++k) {
     const auto edge = [&](std::size_t j) {
       return low * std::pow(high / low, static_cast<double>(j) / velocity_bands);
@@ -99,10 +92,10 @@ void add_velocity_folds(const Observations& data, std::vector<Fold>& folds) {
   }
 }
 
-double mean_square(const std::vector<double>& errors) {
+double root_mean_square(const std::vector<double>& errors) {
   double sum = 0.0;
   for (const double error : errors) sum += error * error;
-  return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
+  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
 }  // namespace
@@ -132,9 +125,10 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
                                           std::span<const double> near, int threads) {
   std::vector<FoldPrediction> predictions(folds.size());
   parallel_over(folds.size(), threads, [&](std::size_t f) {
-    const Observations seen = subset(data, folds[f].points, false);
-    const Observations unseen = subset(data, folds[f].points, true);
-    const LawErrors of_seen = laws.of(indices_of(data, folds[f].points, false));
+    const std::vector<std::size_t> others = points_outside(folds[f], data.points.size());
+    const Observations seen = data.subset(others);
+    const Observations unseen = data.subset(folds[f].points);
+    const LawErrors of_seen = laws.of(others);
     const LawErrors of_unseen = laws.of(folds[f].points);
     Refit start;
     start.usable = true;
@@ -176,33 +170,31 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
 
 HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
                           std::vector<FoldPrediction> extended, std::uint64_t seed) {
+  HeldOutGain gain;
   std::vector<bool> chosen(folds.size(), true);
   for (std::size_t f = 0; f < folds.size(); ++f) {
     chosen[f] = !(extended[f].usable && extended[f].criterion > base[f].criterion);
     if (!chosen[f]) extended[f] = base[f];
+    const bool usable = base[f].usable && extended[f].usable;
+    gain.decisive = gain.decisive || (usable && folds[f].kind != FoldKind::velocity);
   }
-  HeldOutGain gain;
   std::vector<std::size_t> used;
   std::vector<double> all_base, all_extended;
   for (std::size_t f = 0; f < folds.size(); ++f) {
-    if (base[f].usable && extended[f].usable && folds[f].kind != FoldKind::velocity)
-      gain.decisive = true;
-  }
-  for (std::size_t f = 0; f < folds.size(); ++f) {
     if (!base[f].usable || !extended[f].usable) continue;
-    gain.folds.push_back({folds[f], std::sqrt(mean_square(base[f].error)),
-                          std::sqrt(mean_square(extended[f].error)),
-                          0.5 * (base[f].deviance - extended[f].deviance), true, chosen[f]});
-    gain.folds.back().counted = !gain.decisive || folds[f].kind != FoldKind::velocity;
-    if (!gain.folds.back().counted) continue;
+    const double log_score = 0.5 * (base[f].deviance - extended[f].deviance);
+    const bool counted = !gain.decisive || folds[f].kind != FoldKind::velocity;
+    gain.folds.push_back({folds[f], root_mean_square(base[f].error),
+                          root_mean_square(extended[f].error), log_score, counted, chosen[f]});
+    if (!counted) continue;
     used.push_back(f);
-    gain.log_score += gain.folds.back().log_score;
+    gain.log_score += log_score;
     all_base.insert(all_base.end(), base[f].error.begin(), base[f].error.end());
     all_extended.insert(all_extended.end(), extended[f].error.begin(), extended[f].error.end());
   }
   if (used.empty()) return gain;
-  gain.rmse_base = std::sqrt(mean_square(all_base));
-  gain.rmse_extended = std::sqrt(mean_square(all_extended));
+  gain.rmse_base = root_mean_square(all_base);
+  gain.rmse_extended = root_mean_square(all_extended);
   if (!(gain.rmse_base > 0.0)) return gain;
   gain.relative = 1.0 - gain.rmse_extended / gain.rmse_base;
   std::vector<double> samples;

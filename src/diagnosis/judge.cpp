@@ -29,9 +29,7 @@ struct MovingColumns {
 std::optional<MovingColumns> moving_columns(const Refit& refit) {
   const std::size_t slots = refit.theta.size();
   MovingColumns found;
-  for (std::size_t j = 0; j < slots; ++j) {
-    if (refit.moving[j]) found.slots.push_back(j);
-  }
+  found.slots = refit.moving_slots();
   if (found.slots.empty()) return std::nullopt;
   const Eigen::Map<const RowMajor> jacobian(
       refit.jacobian.data(), static_cast<Eigen::Index>(refit.jacobian.size() / slots),
@@ -84,6 +82,80 @@ void set_implausible(const Candidate& candidate, const Refit& refit, std::size_t
   }
 }
 
+/// The covariance of the slots [slots x slots]; 0 for those that do not move. Empty if none moves,
+/// or if a moving slot has no effect.
+Eigen::MatrixXd covariance_of(const Refit& refit) {
+  const auto moving = moving_columns(refit);
+  if (!moving) return {};
+  const Eigen::MatrixXd inverse =
+      (moving->unit.transpose() * moving->unit).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd back = moving->length.cwiseInverse();
+  const auto slots = static_cast<Eigen::Index>(refit.theta.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(slots, slots);
+  covariance(moving->slots, moving->slots) = back.asDiagonal() * inverse * back.asDiagonal();
+  return covariance;
+}
+
+/// The offset of one series.
+struct Offset {
+  std::size_t slot = 0;
+  std::size_t dataset = 0;
+  double log_diameter = 0.0;
+};
+
+/// The moving offsets, each with the diameter of its series.
+std::vector<Offset> moving_offsets(const Observations& data, const CandidateResult& candidate) {
+  const ImpactModel& model = candidate.candidate.model;
+  const auto batch = std::ranges::find_if(model.chain, &Mechanism::is_batch);
+  if (batch == model.chain.end()) return {};
+  const std::size_t first = first_parameter(model, **batch);
+  std::map<std::size_t, Offset> found;
+  for (const Observation& point : data.points) {
+    const std::size_t slot = model.slot_own[first][point.dataset][point.series];
+    found[slot] = {slot, point.dataset, std::log(point.diameter)};
+  }
+  std::vector<Offset> offsets;
+  for (const auto& [slot, offset] : found) {
+    if (candidate.refit.moving[slot]) offsets.push_back(offset);
+  }
+  return offsets;
+}
+
+/// Is the parameter an error of a drop height, a length [m] that only drop experiments have?
+bool is_height(const Parameter& parameter) {
+  const Mechanism* const mechanism = parameter.mechanism;
+  return mechanism != nullptr && parameter.unit == "m" &&
+         mechanism->info.kind == MechanismKind::measurement &&
+         mechanism->info.methods == std::vector<Method>{Method::drop_heights};
+}
+
+/// Is an added parameter an error of a height that may be due to the rounding of the heights?
+bool within_a_step(const SearchBase& base, const CandidateResult& c) {
+  const std::vector<double> errors = standard_errors(c.refit, base.noise_scale);
+  for (std::size_t j = 0; j < c.refit.theta.size(); ++j) {
+    const ParameterSlot& slot = c.candidate.model.slots[j];
+    if (!is_height(*slot.parameter) || !c.candidate.adds(slot)) continue;
+    const double least = std::abs(c.refit.theta[j]) - allowed_errors * errors[j];
+    const double step = height_step(base.datasets);
+    if (step > 0.0 && least <= 0.5 * step) return true;
+  }
+  return false;
+}
+
+std::optional<SetAside> reason_against(const SearchBase& base, const CandidateResult& c) {
+  if (c.kind == MechanismKind::description) return SetAside::description;
+  if (!(c.delta_aicc < 0.0)) return SetAside::gains_too_little;
+  if (c.p_value && *c.p_value > base.options.chance) return SetAside::chance;
+  if (c.candidate.added.size() == 1 && find_mechanism(c.candidate.added.front())->is_batch() &&
+      batch_is_size(base.fitted.data, c, base.noise_scale)) {
+    return SetAside::batch_is_size;
+  }
+  if (!c.plausible) return SetAside::not_possible;
+  if (within_a_step(base, c)) return SetAside::within_a_step;
+  if (c.remaining_p < tolerated_level) return SetAside::leaves_structure;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<double> standard_errors(const Refit& refit, double noise_scale) {
@@ -125,52 +197,6 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
   return found;
 }
 
-namespace {
-
-constexpr double not_by_chance = 0.001;
-constexpr std::size_t terms = 3;  // coefficients of a parabola
-
-struct Offset {
-  std::size_t slot = 0;
-  std::size_t dataset = 0;
-  double log_diameter = 0.0;
-};
-
-/// The moving offsets, each with the diameter of its series.
-std::vector<Offset> moving_offsets(const Observations& data, const CandidateResult& candidate) {
-  const ImpactModel& model = candidate.candidate.model;
-  const auto batch = std::ranges::find_if(model.chain, &Mechanism::is_batch);
-  if (batch == model.chain.end()) return {};
-  const std::size_t first = first_parameter(model, **batch);
-  std::map<std::size_t, Offset> found;
-  for (const Observation& point : data.points) {
-    const std::size_t slot = model.slot_own[first][point.dataset][point.series];
-    if (candidate.refit.moving[slot]) {
-      found[slot] = {slot, point.dataset, std::log(point.diameter)};
-    }
-  }
-  std::vector<Offset> offsets;
-  for (const auto& [slot, offset] : found) offsets.push_back(offset);
-  return offsets;
-}
-
-/// The covariance of the moving slots. @param place receives the row of each slot in it, -1 for
-/// others
-Eigen::MatrixXd covariance_of(const Refit& refit, std::vector<Eigen::Index>& place) {
-  const auto moving = moving_columns(refit);
-  if (!moving) return {};
-  place.assign(refit.theta.size(), -1);
-  for (std::size_t k = 0; k < moving->slots.size(); ++k) {
-    place[moving->slots[k]] = static_cast<Eigen::Index>(k);
-  }
-  const Eigen::MatrixXd inverse =
-      (moving->unit.transpose() * moving->unit).completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::VectorXd back = moving->length.cwiseInverse();
-  return back.asDiagonal() * inverse * back.asDiagonal();
-}
-
-}  // namespace
-
 bool series_are_sizes(const Observations& data) {
   std::set<std::pair<std::size_t, std::size_t>> series;
   std::set<std::pair<std::size_t, double>> sizes;
@@ -184,104 +210,54 @@ bool series_are_sizes(const Observations& data) {
 }
 
 bool batch_is_size(const Observations& data, const CandidateResult& candidate, double noise_scale) {
+  constexpr double not_by_chance = 0.001;
+  constexpr std::size_t terms = 3;  // coefficients of a parabola
   if (!series_are_sizes(data)) return false;
   const std::vector<Offset> offsets = moving_offsets(data, candidate);
-  std::map<std::size_t, std::vector<Offset>> of_dataset;
-  for (const Offset& offset : offsets) of_dataset[offset.dataset].push_back(offset);
-  std::size_t columns = 0;
-  for (const auto& [dataset, own] : of_dataset) columns += std::min(terms, own.size());
-  if (offsets.size() <= columns) return true;
-  std::vector<Eigen::Index> place;
-  const Eigen::MatrixXd all = covariance_of(candidate.refit, place);
-  if (all.size() == 0) return true;
   const auto count = static_cast<Eigen::Index>(offsets.size());
-  Eigen::MatrixXd C(count, count),
-      A = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(columns));
-  Eigen::VectorXd o(count);
-  Eigen::Index column = 0;
-  std::map<std::size_t, Eigen::Index> first;  // first column of each dataset
-  for (const auto& [dataset, own] : of_dataset) {
-    first[dataset] = column;
-    column += static_cast<Eigen::Index>(std::min(terms, own.size()));
-  }
+  std::map<std::size_t, std::vector<Eigen::Index>> of_dataset;
+  std::vector<std::size_t> slots;
+  Eigen::VectorXd x(count), o(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Offset& at = offsets[static_cast<std::size_t>(i)];
-    o(i) = candidate.refit.theta[at.slot];
-    const std::vector<Offset>& own = of_dataset[at.dataset];
-    double power = 1.0;
+    const Offset& offset = offsets[static_cast<std::size_t>(i)];
+    of_dataset[offset.dataset].push_back(i);
+    slots.push_back(offset.slot);
+    x(i) = offset.log_diameter;
+    o(i) = candidate.refit.theta[offset.slot];
+  }
+  std::vector<Eigen::VectorXd> columns;
+  for (const auto& [dataset, own] : of_dataset) {
+    Eigen::VectorXd power = Eigen::VectorXd::Zero(count);
+    power(own).setOnes();
     for (std::size_t k = 0; k < std::min(terms, own.size()); ++k) {
-      A(i, first[at.dataset] + static_cast<Eigen::Index>(k)) = power;
-      power *= at.log_diameter - own.front().log_diameter;
-    }
-    for (Eigen::Index j = 0; j < count; ++j) {
-      C(i, j) = noise_scale * noise_scale *
-                all(place[at.slot], place[offsets[static_cast<std::size_t>(j)].slot]);
+      columns.push_back(power);
+      power.array() *= x.array() - x(own.front());
     }
   }
+  if (offsets.size() <= columns.size()) return true;
+  const Eigen::MatrixXd all = covariance_of(candidate.refit);
+  if (all.size() == 0) return true;
+  Eigen::MatrixXd C = noise_scale * noise_scale * all(slots, slots);
   // A lower limit of the variances: combinations of offsets that the base parameters can produce
   // have a singular covariance.
   C.diagonal().array() += 1e-12;
   const Eigen::LLT<Eigen::MatrixXd> root(C);
   if (root.info() != Eigen::Success) return true;
+  Eigen::MatrixXd A(count, static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index k = 0; k < A.cols(); ++k) A.col(k) = columns[static_cast<std::size_t>(k)];
   const Eigen::MatrixXd white = root.matrixL().solve(A);
   const Eigen::VectorXd seen = root.matrixL().solve(o);
   const Eigen::VectorXd rest = seen - white * white.colPivHouseholderQr().solve(seen);
   gsl_errors_are_values();
-  return gsl_cdf_chisq_Q(rest.squaredNorm(), static_cast<double>(count - column)) > not_by_chance;
+  return gsl_cdf_chisq_Q(rest.squaredNorm(), static_cast<double>(count - A.cols())) > not_by_chance;
 }
-namespace {
-
-/// Is the parameter an error of a drop height, a length [m] that only drop experiments have?
-bool is_height(const Parameter& parameter) {
-  const Mechanism* const mechanism = parameter.mechanism;
-  return mechanism != nullptr && parameter.unit == "m" &&
-         mechanism->info.kind == MechanismKind::measurement &&
-         mechanism->info.methods == std::vector<Method>{Method::drop_heights};
-}
-
-/// Is an added parameter an error of a height that may be due to the rounding of the heights?
-bool within_a_step(const SearchBase& base, const CandidateResult& c) {
-  const std::vector<double> errors = standard_errors(c.refit, base.noise_scale);
-  for (std::size_t j = 0; j < c.refit.theta.size(); ++j) {
-    const ParameterSlot& slot = c.candidate.model.slots[j];
-    if (!is_height(*slot.parameter) || !c.candidate.adds(slot)) continue;
-    const double least = std::abs(c.refit.theta[j]) - allowed_errors * errors[j];
-    const double step = height_step(base.datasets);
-    if (step > 0.0 && least <= 0.5 * step) return true;
-  }
-  return false;
-}
-
-std::optional<SetAside> reason_against(const SearchBase& base, const CandidateResult& c) {
-  if (c.kind == MechanismKind::description) return SetAside::description;
-  if (!(c.delta_aicc < 0.0)) return SetAside::gains_too_little;
-  if (c.p_value && *c.p_value > base.options.chance) return SetAside::chance;
-  if (c.candidate.added.size() == 1 && find_mechanism(c.candidate.added.front())->is_batch() &&
-      batch_is_size(base.fitted.data, c, base.noise_scale)) {
-    return SetAside::batch_is_size;
-  }
-  if (!c.plausible) return SetAside::not_possible;
-  if (within_a_step(base, c)) return SetAside::within_a_step;
-  if (c.remaining_p < tolerated_level) return SetAside::leaves_structure;
-  return std::nullopt;
-}
-
-}  // namespace
 
 void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
            const std::vector<Fold>& folds) {
   std::optional<std::vector<FoldPrediction>> base_folds;  // computed when first needed
-  const auto hold_out = [&](CandidateResult& c) {
-    if (!base_folds) {
-      base_folds = predict_folds(base.candidate, base.fitted.data, base.laws, folds,
-                                 base.refit.theta, base.options.threads);
-    }
-    const std::vector<FoldPrediction> own = predict_folds(
-        c.candidate, base.fitted.data, base.laws, folds, c.refit.theta, base.options.threads);
-    c.gain = held_out_gain(folds, *base_folds, own, base.options.seed);
-    if (c.explains() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
-      c.set_aside = SetAside::predicts_no_better;
-    }
+  const auto predictions_by = [&](const Candidate& candidate, const Refit& refit) {
+    return predict_folds(candidate, base.fitted.data, base.laws, folds, refit.theta,
+                         base.options.threads);
   };
   for (CandidateResult& c : candidates) {
     if (c.explains()) c.set_aside = reason_against(base, c);
@@ -289,8 +265,14 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, dou
   double best = INFINITY;  // smallest delta_aicc of the explanations so far
   for (CandidateResult& c : candidates) {
     if (!c.explains() || c.delta_aicc > best + reach) continue;
-    hold_out(c);
-    if (c.explains()) best = std::min(best, c.delta_aicc);
+    if (!base_folds) base_folds = predictions_by(base.candidate, base.refit);
+    c.gain =
+        held_out_gain(folds, *base_folds, predictions_by(c.candidate, c.refit), base.options.seed);
+    if (c.gain->decisive && !(c.gain->log_score > 0.0)) {
+      c.set_aside = SetAside::predicts_no_better;
+    } else {
+      best = std::min(best, c.delta_aicc);
+    }
   }
 }
 

@@ -37,18 +37,16 @@ double sold_size(double diameter) {
   const int decade = static_cast<int>(std::floor(std::log10(diameter)));
   const double unit = decade < 0 ? 1.0 / std::pow(10.0, -decade) : std::pow(10.0, decade);
   const auto away = [&](double size) { return std::abs(std::log(size * unit / diameter)); };
-  return unit *
-         *std::ranges::min_element(sold, [&](double a, double b) { return away(a) < away(b); });
+  return unit * *std::ranges::min_element(sold, {}, away);
 }
 
 PossibleImpacts possible_impacts(const FitResult& base) {
-  double low = INFINITY, high = 0.0;
+  const std::vector<Observation>& points = base.data.points;
+  const auto [slow, fast] = std::ranges::minmax_element(points, {}, &Observation::velocity);
+  const double slowest = 0.7 * slow->velocity;
+  const double fastest = 1.5 * fast->velocity;
   std::set<std::pair<std::size_t, double>> sizes;
-  for (const Observation& point : base.data.points) {
-    low = std::min(low, point.velocity);
-    high = std::max(high, point.velocity);
-    sizes.insert({point.dataset, point.diameter});
-  }
+  for (const Observation& point : points) sizes.insert({point.dataset, point.diameter});
   std::set<std::pair<std::size_t, double>> wider = sizes;
   for (const auto& [dataset, diameter] : sizes) {
     const auto of_dataset = [d = dataset](const auto& size) { return size.first == d; };
@@ -61,7 +59,7 @@ PossibleImpacts possible_impacts(const FitResult& base) {
   for (const auto& [dataset, diameter] : wider) {
     for (int k = 0; k < grid_velocities; ++k) {
       const double share = static_cast<double>(k) / (grid_velocities - 1);
-      const double velocity = 0.7 * low * std::pow(1.5 * high / (0.7 * low), share);
+      const double velocity = slowest * std::pow(fastest / slowest, share);
       possible.at.push_back({dataset, diameter, velocity});
       possible.sd.push_back(scatter_of_one_event(base, dataset, velocity));
     }
@@ -109,10 +107,7 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Obse
   const auto rows = static_cast<Eigen::Index>(problem.residual_count);
   const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
                                      static_cast<Eigen::Index>(theta.size()));
-  std::vector<std::size_t> moving;
-  for (std::size_t j = 0; j < rival.refit.moving.size(); ++j) {
-    if (rival.refit.moving[j]) moving.push_back(j);
-  }
+  const std::vector<std::size_t> moving = rival.refit.moving_slots();
   const auto p = static_cast<Eigen::Index>(moving.size());
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
   both.leftCols(p) = J(Eigen::all, moving);
@@ -329,8 +324,7 @@ std::vector<NextExperiment> next_experiments(const SearchBase& base,
     }
   }
   for (NextExperiment& next : all) next.series = most_similar_series(base.fitted.data, next);
-  std::ranges::stable_sort(
-      all, [](const NextExperiment& a, const NextExperiment& b) { return effort(a) < effort(b); });
+  std::ranges::stable_sort(all, {}, effort);
   return all;
 }
 

@@ -33,10 +33,7 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   const std::size_t p = base.refit.theta.size();
   const Eigen::MatrixXd& smooth = base.laws.functions;
-  Indices moving;
-  for (std::size_t j = 0; j < p; ++j) {
-    if (base.refit.moving[j]) moving.push_back(j);
-  }
+  const Indices moving = base.refit.moving_slots();
   const auto n = static_cast<Eigen::Index>(data.points.size());
   const auto free = static_cast<Eigen::Index>(moving.size());
   std::map<std::pair<std::size_t, double>, std::pair<Eigen::Index, double>> groups;  // V_min
@@ -77,14 +74,14 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
 class PredictionByOthers {
  public:
   PredictionByOthers(const Eigen::MatrixXd& U, const Eigen::VectorXd& r, const Indices& others)
-      : U_(U), r_(r), information_(Eigen::MatrixXd::Identity(U.cols(), U.cols())) {
-    along_ = Eigen::VectorXd::Zero(U.cols());
+      : U_(U), r_(r), along_(Eigen::VectorXd::Zero(U.cols())) {
+    Eigen::MatrixXd information = Eigen::MatrixXd::Identity(U.cols(), U.cols());
     for (const std::size_t i : others) {
       const auto row = static_cast<Eigen::Index>(i);
-      information_ += U.row(row).transpose() * U.row(row);
+      information += U.row(row).transpose() * U.row(row);
       along_ += U.row(row).transpose() * r(row);
     }
-    solver_.compute(information_);
+    solver_.compute(information);
   }
   /// The deviation of a point that is one of the others: predicted without it.
   double of_one_of_them(std::size_t i) const {
@@ -104,7 +101,6 @@ class PredictionByOthers {
  private:
   const Eigen::MatrixXd& U_;
   const Eigen::VectorXd& r_;
-  Eigen::MatrixXd information_;
   Eigen::VectorXd along_;
   Eigen::LDLT<Eigen::MatrixXd> solver_;
 };
@@ -135,16 +131,14 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   }
   const std::size_t most = kept.size() / 5;
   double scale = 1.0;
-  const auto& moving = base.refit.moving;
-  const auto free = static_cast<std::size_t>(std::ranges::count(moving, true));
+  const std::size_t free = base.refit.moving_slots().size();
   while (out.size() < most && kept.size() > fewest + free) {
     const PredictionByOthers prediction(U, r, kept);
     std::vector<double> z;
     for (const std::size_t i : kept) z.push_back(prediction.of_one_of_them(i));
     scale = scale_of(z, data.noise.sd_stated);
     const auto worst = static_cast<std::size_t>(
-        std::ranges::max_element(z, [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-        z.begin());
+        std::ranges::max_element(z, {}, [](double one) { return std::abs(one); }) - z.begin());
     if (!(scale > 0.0) || !(std::abs(z[worst]) > limit * scale)) break;
     out.push_back(kept[worst]);
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
@@ -165,8 +159,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   const PredictionByOthers prediction(U, r, kept);
   for (const std::size_t i : out) {
     const double z = prediction.of_another(i) / scale;
-    if (!(std::abs(z) > limit)) continue;
-    add(i, z);
+    if (std::abs(z) > limit) add(i, z);
   }
   return found;
 }

@@ -40,6 +40,57 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
   return again.usable ? again : fitted;
 }
 
+/// Draws a point whose impacts were all captured and whose scatter is unknown: if the model
+/// predicts a rebound, the error of e decides (see `weighted_residual`).
+void draw_capture(Observation& point, double square, RandomStream& random) {
+  const double sd = point.weights.sd;
+  const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
+  const double reading = std::sqrt(std::max(square, 0.0)) + sd * random.normal();
+  if (!(square + error * random.normal() > 0.0) || !(reading > 0.0)) return;
+  point.censored = false;
+  point.captured = 0;
+  point.restitution = reading;
+}
+
+/// The Jacobian of the residuals at `theta`, whitened by the covariance of the base [at least
+/// points x slots].
+std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
+                                const std::vector<double>& theta) {
+  const LeastSquaresProblem problem =
+      whitened(impact_problem(candidate.model, base.fitted.data), *base.refit.discrepancy);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
+  if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
+  return jacobian;
+}
+
+/// The columns `chosen` of the first `points` rows of a Jacobian, scaled to unit length.
+Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
+                             std::size_t slots, const std::vector<std::size_t>& chosen) {
+  const Eigen::Map<const RowMajor> all(jacobian.data(), points, static_cast<Eigen::Index>(slots));
+  Eigen::MatrixXd columns(points, all.cols());
+  Eigen::Index count = 0;
+  for (const std::size_t j : chosen) {
+    const Eigen::VectorXd column = all.col(static_cast<Eigen::Index>(j));
+    const double length = column.norm();
+    if (length > 0.0) columns.col(count++) = column / length;
+  }
+  return columns.leftCols(count);
+}
+
+/// An orthonormal basis of the span of the columns [points x rank].
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
+  constexpr double negligible = 1e-6;  // of the unit length of the columns
+  if (columns.cols() == 0) return columns;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  Eigen::Index rank = 0;
+  while (rank < std::min(columns.rows(), columns.cols()) &&
+         std::abs(qr.matrixR()(rank, rank)) > negligible) {
+    ++rank;
+  }
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), rank);
+}
+
 }  // namespace
 
 FitSpec with_constants_adjusted(FitSpec spec) {
@@ -71,22 +122,6 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   if (!fitted.data.noise.sd_stated) base.noise_scale = fitted.noise_scale;
   return base;
 }
-
-namespace {
-
-/// Draws a point whose impacts were all captured and whose scatter is unknown: if the model
-/// predicts a rebound, the error of e decides (see `weighted_residual`).
-void draw_capture(Observation& point, double square, RandomStream& random) {
-  const double sd = point.weights.sd;
-  const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
-  const double reading = std::sqrt(std::max(square, 0.0)) + sd * random.normal();
-  if (!(square + error * random.normal() > 0.0) || !(reading > 0.0)) return;
-  point.censored = false;
-  point.captured = 0;
-  point.restitution = reading;
-}
-
-}  // namespace
 
 Observations simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
                              std::uint64_t index) {
@@ -144,71 +179,24 @@ std::vector<double> calibration_row(const std::optional<std::vector<double>>& re
   return row;
 }
 
-bool spreads(const CandidateResult& single) {
-  return find_mechanism(single.candidate.added.front())->spreads();
-}
-
-namespace {
-
-/// The Jacobian of the residuals at `theta`, whitened by the covariance of the base [at least
-/// points x slots].
-std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
-                                const std::vector<double>& theta) {
-  const LeastSquaresProblem problem =
-      whitened(impact_problem(candidate.model, base.fitted.data), *base.refit.discrepancy);
-  std::vector<double> residuals(problem.residual_count);
-  std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
-  if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
-  return jacobian;
-}
-
-/// The chosen columns of the first `points` rows of a Jacobian, scaled to unit length.
-template <class Chosen>
-Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
-                             std::size_t slots, const Chosen& chosen) {
-  const Eigen::Map<const RowMajor> all(jacobian.data(), points, static_cast<Eigen::Index>(slots));
-  Eigen::MatrixXd columns(points, all.cols());
-  Eigen::Index count = 0;
-  for (std::size_t j = 0; j < slots; ++j) {
-    if (!chosen(j)) continue;
-    const Eigen::VectorXd column = all.col(static_cast<Eigen::Index>(j));
-    const double length = column.norm();
-    if (length > 0.0) columns.col(count++) = column / length;
-  }
-  return columns.leftCols(count);
-}
-
-/// An orthonormal basis of the span of the columns [points x rank].
-Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
-  constexpr double negligible = 1e-6;  // of the unit length of the columns
-  if (columns.cols() == 0) return columns;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::Index rank = 0;
-  while (rank < std::min(columns.rows(), columns.cols()) &&
-         std::abs(qr.matrixR()(rank, rank)) > negligible) {
-    ++rank;
-  }
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), rank);
-}
-
-}  // namespace
-
 Eigen::MatrixXd gains_by_chance(const SearchBase& base,
                                 const std::vector<CandidateResult>& candidates,
                                 const Eigen::MatrixXd& residuals) {
   const Observations& data = base.fitted.data;
   const Eigen::Index points = residuals.rows();
-  const Eigen::MatrixXd model =
-      basis_of(unit_columns(base.refit.jacobian, points, base.refit.theta.size(),
-                            [&](std::size_t j) { return bool(base.refit.moving[j]); }));
+  const Eigen::MatrixXd model = basis_of(unit_columns(
+      base.refit.jacobian, points, base.refit.theta.size(), base.refit.moving_slots()));
   const Eigen::VectorXd squares = residuals.colwise().squaredNorm();
   Eigen::MatrixXd gains(residuals.cols(), static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& candidate = candidates[k].candidate;
     const auto& slots = candidate.model.slots;
-    Eigen::MatrixXd own =
-        unit_columns(jacobian_at(base, candidate, candidates[k].refit.theta), points, slots.size(),
-                     [&](std::size_t j) { return slots[j].free && candidate.adds(slots[j]); });
+    std::vector<std::size_t> added;
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      if (slots[j].free && candidate.adds(slots[j])) added.push_back(j);
+    }
+    Eigen::MatrixXd own = unit_columns(jacobian_at(base, candidate, candidates[k].refit.theta),
+                                       points, slots.size(), added);
     own -= model * (model.transpose() * own);
     const Eigen::VectorXd taken = (basis_of(own).transpose() * residuals).colwise().squaredNorm();
     for (Eigen::Index b = 0; b < residuals.cols(); ++b) {

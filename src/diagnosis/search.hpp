@@ -50,9 +50,6 @@ std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base, s
 /// The row of a piece of the calibration: 1 and the residuals, or 0 if the refit failed.
 std::vector<double> calibration_row(const std::optional<std::vector<double>>& residuals);
 
-/// Is `single` a mechanism by which the impacts of a point differ?
-bool spreads(const CandidateResult& single);
-
 /// The gain of each candidate over the base in the criterion, on every replicate [replicates x
 /// candidates], to first order. With Q an orthonormal basis of the Jacobian columns of its own free
 /// parameters, orthogonal to those of the base, the sum of squares of the residuals r decreases by

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "core/random.hpp"
@@ -56,6 +55,30 @@ double upper_share(const std::vector<double>& sorted, double value) {
   const auto below = std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
   const auto n = static_cast<double>(sorted.size());
   return (1.0 + n - static_cast<double>(below)) / (n + 1.0);
+}
+
+/// The samples, with 0 for points that are not used [samples x points].
+Eigen::MatrixXd matrix_of(const Samples& samples, const std::vector<bool>& used) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(samples.size()),
+                      static_cast<Eigen::Index>(used.size()));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t b = 0; b < samples.size(); ++b) {
+      all(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(i)) =
+          used[i] ? samples[b][i] : 0.0;
+    }
+  }
+  return all;
+}
+
+/// The projection of every sample onto each column [samples x columns].
+Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
+                            const std::vector<std::vector<double>>& columns) {
+  Eigen::MatrixXd all(samples.cols(), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    all.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[static_cast<std::size_t>(k)].data(),
+                                                   samples.cols());
+  }
+  return samples * all;
 }
 
 }  // namespace
@@ -130,25 +153,25 @@ void StructureStatistics::keep_to_impacts(Column& column) const {
 }
 
 /// Weights and whitens `column`, a discrepancy of e^2, and appends its part orthogonal to the model
-/// and to `into`. @return false if nothing is left
-bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
+/// and to `into`, if anything is left.
+void StructureStatistics::take(Column column, std::vector<Column>& into) const {
   for (std::size_t i = 0; i < column.size(); ++i) column[i] *= slopes_[i];
   settings_.whiten(column);
   discrepancy_->whiten(column);
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (!used_[i]) column[i] = 0.0;
   }
-  if (!orthogonalise(column, into)) return false;
+  if (!orthogonalise(column, into)) return;
   keep_to_impacts(column);
   into.push_back(std::move(column));
-  return true;
 }
 
 void StructureStatistics::add_local_functions(const Observations& data) {
   const std::size_t n = data.points.size();
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::erase_if(order, [&](std::size_t i) { return !used_[i]; });
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (used_[i]) order.push_back(i);
+  }
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     const Observation& x = data.points[a];
     const Observation& y = data.points[b];
@@ -223,12 +246,6 @@ void StructureStatistics::add_global_functions(const Observations& data) {
   }
 }
 
-std::size_t StructureStatistics::places() const {
-  std::size_t count = 0;
-  for (const auto& run : runs_) count += run.size();
-  return count;
-}
-
 std::size_t StructureStatistics::longest_run() const {
   std::size_t longest = 0;
   for (const auto& run : runs_) longest = std::max(longest, run.size());
@@ -248,41 +265,16 @@ bool StructureStatistics::asks(StructureQuestion question) const {
       return !curvature_.empty();
     case StructureQuestion::capture:
       return !capture_.empty();
-    case StructureQuestion::runs:
-      return places() > model_.size() && longest_run() > 1;
+    case StructureQuestion::runs: {
+      std::size_t places = 0;
+      for (const auto& run : runs_) places += run.size();
+      return places > model_.size() && longest_run() > 1;
+    }
     case StructureQuestion::smooth:
       return !smooth_.empty();
   }
   return false;
 }
-
-namespace {
-
-/// The samples, with 0 for points that are not used [samples x points].
-Eigen::MatrixXd matrix_of(const Samples& samples, const std::vector<bool>& used) {
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(samples.size()),
-                      static_cast<Eigen::Index>(used.size()));
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    for (std::size_t b = 0; b < samples.size(); ++b) {
-      all(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(i)) =
-          used[i] ? samples[b][i] : 0.0;
-    }
-  }
-  return all;
-}
-
-/// The projection of every sample onto each column [samples x columns].
-Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
-                            const std::vector<std::vector<double>>& columns) {
-  Eigen::MatrixXd all(samples.cols(), static_cast<Eigen::Index>(columns.size()));
-  for (Eigen::Index k = 0; k < all.cols(); ++k) {
-    all.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[static_cast<std::size_t>(k)].data(),
-                                                   samples.cols());
-  }
-  return samples * all;
-}
-
-}  // namespace
 
 PerValue<StructureQuestion, double> StructureStatistics::operator()(
     std::span<const double> residuals) const {
@@ -302,8 +294,7 @@ std::vector<PerValue<StructureQuestion, double>> StructureStatistics::operator()
   }
   Eigen::ArrayXd runs = Eigen::ArrayXd::Zero(r.rows());
   for (const auto& run : runs_) {
-    Eigen::ArrayXd before = runs;
-    before.setZero();
+    Eigen::ArrayXd before = Eigen::ArrayXd::Zero(r.rows());
     for (const std::vector<std::size_t>& members : run) {
       Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(r.rows());
       double square_of_slopes = 0.0;
@@ -342,10 +333,6 @@ std::vector<PerValue<StructureQuestion, double>> StructureStatistics::operator()
   take(StructureQuestion::runs, runs);
   take(StructureQuestion::smooth, smooth);
   return answers;
-}
-
-std::vector<double> StructureStatistics::residuals_of_noise(std::span<const double> noise) const {
-  return residuals_of_noise(Samples{{noise.begin(), noise.end()}}).front();
 }
 
 Samples StructureStatistics::residuals_of_noise(const Samples& noise) const {
@@ -391,7 +378,6 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
   std::vector<double> smallest(simulated.size(), 1.0);
   double smallest_own = 1.0;
   for (const StructureQuestion question : values_of<StructureQuestion>()) {
-    const bool scatter = question == StructureQuestion::scatter;
     if (!statistics.asks(question)) continue;
     std::vector<double> sorted;
     for (const auto& sample : simulated) sorted.push_back(sample[question]);
@@ -402,7 +388,7 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
     for (std::size_t b = 0; b < simulated.size(); ++b) {
       smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][question]));
     }
-    if (!scatter && p <= 0.01) judged.smooth = true;
+    if (question != StructureQuestion::scatter && p <= 0.01) judged.smooth = true;
   }
   const auto as_small =
       std::ranges::count_if(smallest, [&](double p) { return p <= smallest_own; });

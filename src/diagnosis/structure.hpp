@@ -69,7 +69,6 @@ class StructureStatistics {
 
   /// The projection of white noise orthogonal to the fit's Jacobian: the residuals of a correct
   /// model, to first order.
-  std::vector<double> residuals_of_noise(std::span<const double> noise) const;
   Samples residuals_of_noise(const Samples& noise) const;
 
   /// Do these points allow this test?
@@ -82,11 +81,10 @@ class StructureStatistics {
  private:
   using Column = std::vector<double>;
   void add_local_functions(const Observations& data);
-  std::size_t places() const;
   std::size_t longest_run() const;
   void add_global_functions(const Observations& data);
   bool orthogonalise(Column& column, const std::vector<Column>& against) const;
-  bool take(Column column, std::vector<Column>& into) const;
+  void take(Column column, std::vector<Column>& into) const;
   void keep_to_impacts(Column& column) const;
 
   bool stated_ = true;

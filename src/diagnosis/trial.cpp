@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "core/json.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "core/resumable.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/law_errors.hpp"
 #include "estimate/observation.hpp"
@@ -17,15 +21,25 @@
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
+namespace {
 
-std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k) {
-  constexpr std::size_t kinds = 4;
-  constexpr std::size_t of_each = std::size_t{1} << 32;
-  return ((options.first_piece + 1) * kinds + static_cast<std::size_t>(kind)) * of_each + k;
-}
+constexpr int tries_alone = 4;
+constexpr int tries_in_pairs = 2;
+constexpr double worth_releasing = 2.0;  // least gain of the criterion by released parameters
+// Least effect, in standard deviations of the most affected point.
+constexpr double least_effect = 0.01;
+// A pair is followed if its criterion at the first look is within `followed_within` of the best,
+// or within the fraction `followed_part` of the gain of the best.
+constexpr double followed_within = 30.0;
+constexpr double followed_part = 0.2;
+// Least part of the misfit that each of a pair must explain if structure is left.
+constexpr double carried_part = 0.1;
 
+/// The kept part of a refit: everything but the discrepancy, which is not needed later.
 Json json_of(const Refit& refit) { return as_json(refit, NonFinite::word); }
 
+/// Reads a kept refit.
+/// @throws std::exception unless it is one of `candidate` to this number of points
 Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points) {
   Refit refit = value_from<Refit>(json);
   const std::size_t p = candidate.model.slots.size();
@@ -36,14 +50,12 @@ Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points)
   return refit;
 }
 
+/// @throws std::exception unless `row` begins with `names`
 void require_names(const Json& row, const std::vector<std::string>& names) {
   if (row.at(0).get<std::vector<std::string>>() != names) {
     throw std::invalid_argument("a row of something else");
   }
 }
-namespace {
-
-constexpr double worth_releasing = 2.0;  // least gain of the criterion by released parameters
 
 MechanismKind kind_of(const std::vector<std::string>& ids) {
   MechanismKind kind = MechanismKind::measurement;
@@ -52,15 +64,6 @@ MechanismKind kind_of(const std::vector<std::string>& ids) {
     if (mechanism->info.kind == MechanismKind::physics) kind = MechanismKind::physics;
   }
   return kind;
-}
-
-std::vector<double> predicted_squares(const Candidate& candidate, const Refit& refit,
-                                      const Observations& data) {
-  std::vector<double> squares;
-  for (const Prediction& at : predict(candidate.model, refit.theta, data.conditions(), false)) {
-    squares.push_back(at.restitution_squared);
-  }
-  return squares;
 }
 
 /// See `CandidateResult::remaining_part`.
@@ -107,41 +110,13 @@ bool knows_series(const Mechanism& mechanism) {
       parameters, [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
 }
 
-std::size_t series_count(const Observations& data) {
-  std::set<std::pair<std::size_t, std::size_t>> series;
-  for (const Observation& point : data.points) series.insert({point.dataset, point.series});
-  return series.size();
-}
-
 bool can_be_released(const Candidate& candidate) {
   return std::ranges::any_of(candidate.model.slots, [&](const ParameterSlot& slot) {
     return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
   });
 }
 
-}  // namespace
-
-bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
-  const Observations& data = base.fitted.data;
-  if (!data.noise.known) return false;
-  const std::vector<const Mechanism*> added = chain_of(candidate.added);
-  const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
-  if (batch && series_count(data) < 2) return false;  // a batch effect needs at least two series
-  const bool by_series =
-      std::ranges::any_of(added, [](const Mechanism* m) { return knows_series(*m); });
-  std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
-  int says_more = 0;  // points with both rebounds and captures give two values
-  for (const Observation& point : data.points) {
-    impacts.insert({point.dataset, by_series ? point.series : 0, point.diameter, point.velocity});
-    if (point.mixed()) ++says_more;
-  }
-  const auto& moving = base.refit.moving;
-  const auto before = static_cast<int>(std::ranges::count(moving, true));
-  const int own = candidate.free_count - base.candidate.free_count;
-  const int known = static_cast<int>(impacts.size()) + says_more;
-  return known >= before + std::max(own, 1);
-}
-
+/// The properties and the gain of a fitted candidate.
 CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
   const Observations& data = base.fitted.data;
   CandidateResult result = described(base, std::move(candidate), std::move(refit), 0.0);
@@ -152,47 +127,56 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
   return result;
 }
 
+/// Sets the p-value of the structure that `result` leaves.
 void find_what_is_left(const SearchBase& base, CandidateResult& result) {
   if (!result.refit.usable) return;
   const Observations& data = base.fitted.data;
-  const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
+  std::vector<double> squares;
+  for (const Prediction& at :
+       predict(result.candidate.model, result.refit.theta, data.conditions(), false)) {
+    squares.push_back(at.restitution_squared);
+  }
   result.remaining_p = quick_structure(data, result.refit, squares, base.noise).p_value;
 }
 
-CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
-                        int tries) {
-  Refit refit =
-      with_law_errors(candidate, base.fitted.data,
-                      refit_candidate(candidate, base.fitted.data, near, tries), base.laws);
-  return examine(base, std::move(candidate), std::move(refit));
+/// Start values for `to` from the fit `from`, with free slots clamped to their bounds.
+std::vector<double> start_from(const CandidateResult& from, const Candidate& to) {
+  std::vector<double> theta = carried_over(from.candidate.model, from.refit.theta, to.model);
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    const ParameterSlot& slot = to.model.slots[j];
+    if (slot.free) theta[j] = std::clamp(theta[j], slot.lower, slot.upper);
+  }
+  return theta;
 }
 
+/// Replaces `result` by a fit with released parameters if its criterion is better by more than 2.
 void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
   // An implausible single cause is kept, so that it can be reported.
   const bool pair = result.candidate.added.size() > 1;
   Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
   if (!can_be_seen(base, released)) return;
-  const std::vector<double> near = within_bounds(
-      released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
+  const std::vector<double> near = start_from(result, released);
   CandidateResult other = try_one(base, std::move(released), near, tries);
   if (other.refit.usable && other.delta_aicc < result.delta_aicc - worth_releasing) {
     result = std::move(other);
   }
 }
 
-void judge_possible_values(const SearchBase& base, CandidateResult& result, int tries) {
+/// Computes `cost_of_possible` if a value is allowed only within its error, and judges the
+/// parameters by it.
+void judge_possible_values(const SearchBase& base, CandidateResult& result) {
   if (!result.refit.usable || !result.only_by_error) return;
   Candidate held = make_candidate(base.spec, base.datasets, result.candidate.added,
                                   result.candidate.released, true);
-  const std::vector<double> near = within_bounds(
-      held.model, carried_over(result.candidate.model, result.refit.theta, held.model));
-  const CandidateResult possible = try_one(base, std::move(held), near, tries);
+  const std::vector<double> near = start_from(result, held);
+  const CandidateResult possible = try_one(base, std::move(held), near, tries_alone);
   if (!possible.refit.usable) return;
   result.cost_of_possible = possible.delta_aicc - result.delta_aicc;
   find_parameters(base, result);
 }
 
+/// The result of `make` for `added`, or the kept one of piece `k` of its kind.
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
                                const std::vector<std::string>& added,
                                const std::function<CandidateResult()>& make) {
@@ -221,27 +205,11 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
   return kept_or_made(base.options.kept.get(), number_of(base.options, kind, k), make, write, read);
 }
 
-std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> theta) {
-  for (std::size_t j = 0; j < theta.size(); ++j) {
-    const ParameterSlot& slot = model.slots[j];
-    if (slot.free) theta[j] = std::clamp(theta[j], slot.lower, slot.upper);
-  }
-  return theta;
-}
-
+/// Sorts by the criterion, best first, and removes candidates that could not be fitted.
 void sort_by_criterion(std::vector<CandidateResult>& candidates) {
   std::erase_if(candidates, [](const CandidateResult& c) { return !c.refit.usable; });
-  std::ranges::stable_sort(candidates, [](const CandidateResult& a, const CandidateResult& b) {
-    return a.delta_aicc < b.delta_aicc;
-  });
+  std::ranges::stable_sort(candidates, {}, &CandidateResult::delta_aicc);
 }
-
-namespace {
-
-constexpr int tries_alone = 4;
-
-// Least effect, in standard deviations of the most affected point.
-constexpr double least_effect = 0.01;
 
 /// Can the mechanism change any residual by `least_effect`, with its parameters at their start or
 /// one of them at either end of its allowed range?
@@ -279,23 +247,166 @@ bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candid
 CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
                            Candidate candidate) {
   if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return {};
-  const std::vector<PointConditions>& impacts = candidate.impacts;
-  if (std::ranges::all_of(impacts, [&](const PointConditions& at) {
-        return is_taken_away(candidate.model, mechanism, at);
-      })) {
-    return {};
-  }
+  const bool never_acts = std::ranges::all_of(candidate.impacts, [&](const PointConditions& at) {
+    return is_taken_away(candidate.model, mechanism, at);
+  });
+  if (never_acts) return {};
   const std::vector<double> near =
       carried_over(base.candidate.model, base.refit.theta, candidate.model);
   if (!can_be_seen(base, candidate) || !can_matter(base, mechanism, candidate, near)) return {};
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
-  judge_possible_values(base, result, tries_alone);
+  judge_possible_values(base, result);
   find_what_is_left(base, result);
   return result;
 }
 
+/// The mechanism of a candidate that adds only one.
+const Mechanism& only_mechanism(const CandidateResult& single) {
+  return *find_mechanism(single.candidate.added.front());
+}
+
+/// Does a free parameter of an added mechanism rest on a bound? Exponents may.
+bool rests_on_the_edge(const CandidateResult& result) {
+  for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
+    const ParameterSlot& slot = result.candidate.model.slots[j];
+    // A released parameter may rest on a bound.
+    const bool own = result.candidate.adds(slot) && slot.parameter->free;
+    if (own && slot.free && !result.refit.moving[j]) return true;
+  }
+  return false;
+}
+
+/// The first look at a pair: no released parameters, and the errors of laws are applied only at the
+/// end of descents without them.
+struct FirstLook {
+  const CandidateResult* first = nullptr;
+  const CandidateResult* second = nullptr;
+  Candidate both{};
+  Refit refit{};
+  /// An upper limit of the change of the criterion: a pair is no worse than the better mechanism
+  /// alone.
+  double delta_aicc = INFINITY;
+};
+
+std::vector<std::string> names_of(const FirstLook& look) {
+  return {look.first->candidate.added.front(), look.second->candidate.added.front()};
+}
+
+/// Fits the pair by descents from the fits of either alone.
+void look_at(const SearchBase& base, FirstLook& look) {
+  const Observations& data = base.fitted.data;
+  if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
+  if (!can_be_seen(base, look.both)) return;
+  for (const CandidateResult* from : {look.first, look.second}) {
+    Refit refit = refit_candidate(look.both, data, start_from(*from, look.both), 1);
+    if (refit.usable && !(look.refit.usable && look.refit.chi2 <= refit.chi2)) {
+      look.refit = std::move(refit);
+    }
+  }
+  look.delta_aicc = std::min(look.first->delta_aicc, look.second->delta_aicc);
+  const Refit seen = under_law_errors(look.both, data, look.refit, base.laws);
+  if (!seen.usable) return;
+  look.delta_aicc = std::min(
+      look.delta_aicc, corrected_criterion(data, seen, look.both.free_count) - base.criterion);
+}
+
+/// Reads the first look from the kept rows, or computes it.
+void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
+  const std::vector<std::string> names = names_of(look);
+  look.both = make_candidate(base.spec, base.datasets, names, false, true);
+  const auto make = [&] {
+    look_at(base, look);
+    return std::pair(look.refit, look.delta_aicc);
+  };
+  const auto write = [&](const auto& seen) {
+    return Json::array({names, json_of(seen.first), row_json({seen.second})});
+  };
+  const auto read = [&](const Json& row) {
+    require_names(row, names);
+    return std::pair(refit_of(row.at(1), look.both, base.fitted.data.points.size()),
+                     row_numbers(row.at(2)).at(0));
+  };
+  std::tie(look.refit, look.delta_aicc) = kept_or_made(
+      base.options.kept.get(), number_of(base.options, KeptPiece::look, k), make, write, read);
+}
+
+/// The criterion up to which a pair is followed. A pair that is further behind at the first look
+/// does not become one of the best: of 460 pairs for wall1990-molybdenum and wall1990-silicon, the
+/// later steps improved none by more than a third of its change of the criterion, and none of the
+/// best ten by more than a twentieth.
+double worth_following(const std::vector<FirstLook>& looks) {
+  double best = 0.0;
+  for (const FirstLook& look : looks) best = std::min(best, look.delta_aicc);
+  return best + std::max(followed_within, followed_part * -best);
+}
+
+/// The final result of a pair.
+CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
+  const CandidateResult& first = *look.first;
+  const CandidateResult& second = *look.second;
+  const Observations& data = base.fitted.data;
+  const auto apply_laws = follow ? with_law_errors : under_law_errors;
+  Refit refit = apply_laws(look.both, data, std::move(look.refit), base.laws);
+  CandidateResult result = examine(base, std::move(look.both), std::move(refit));
+  if (follow) try_released(base, result, tries_in_pairs);
+  find_what_is_left(base, result);
+  if (!follow) {
+    result.set_aside = SetAside::far_behind;
+    return result;
+  }
+  // Each of the two must contribute.
+  const double better = std::min(first.delta_aicc, second.delta_aicc);
+  const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
+  if (possible && !(result.delta_aicc < better - base.options.margin_in_pairs)) {
+    result.set_aside = SetAside::one_would_do;
+  }
+  const double better_part = std::min(first.remaining_part, second.remaining_part);
+  if (result.remaining_p < tolerated_level && better_part - result.remaining_part < carried_part) {
+    result.set_aside = SetAside::one_hardly_takes_part;
+  }
+  if (rests_on_the_edge(result)) result.set_aside = SetAside::at_the_edge;
+  return result;
+}
+
 }  // namespace
+
+std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k) {
+  constexpr std::size_t kinds = 4;
+  constexpr std::size_t of_each = std::size_t{1} << 32;
+  return ((options.first_piece + 1) * kinds + static_cast<std::size_t>(kind)) * of_each + k;
+}
+
+bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
+  const Observations& data = base.fitted.data;
+  if (!data.noise.known) return false;
+  const std::vector<const Mechanism*> added = chain_of(candidate.added);
+  const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
+  const bool by_series =
+      std::ranges::any_of(added, [](const Mechanism* m) { return knows_series(*m); });
+  std::set<std::pair<std::size_t, std::size_t>> series;
+  std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
+  int says_more = 0;  // points with both rebounds and captures give two values
+  for (const Observation& point : data.points) {
+    series.insert({point.dataset, point.series});
+    impacts.insert({point.dataset, by_series ? point.series : 0, point.diameter, point.velocity});
+    if (point.mixed()) ++says_more;
+  }
+  if (batch && series.size() < 2) return false;
+  const auto& moving = base.refit.moving;
+  const auto before = static_cast<int>(std::ranges::count(moving, true));
+  const int own = candidate.free_count - base.candidate.free_count;
+  const int known = static_cast<int>(impacts.size()) + says_more;
+  return known >= before + std::max(own, 1);
+}
+
+CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
+                        int tries) {
+  Refit refit =
+      with_law_errors(candidate, base.fitted.data,
+                      refit_candidate(candidate, base.fitted.data, near, tries), base.laws);
+  return examine(base, std::move(candidate), std::move(refit));
+}
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
@@ -310,6 +421,38 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
     results[k] = kept_candidate(base, KeptPiece::single, k, added, [&] {
       return try_single(base, *untried[k], make_candidate(base.spec, base.datasets, added));
     });
+  });
+  sort_by_criterion(results);
+  return results;
+}
+
+std::vector<CandidateResult> try_pairs(const SearchBase& base,
+                                       const std::vector<CandidateResult>& singles) {
+  std::vector<const CandidateResult*> causes;
+  for (const CandidateResult& single : singles) {
+    if (single.kind == MechanismKind::description) continue;
+    if (only_mechanism(single).is_batch() && series_are_sizes(base.fitted.data)) continue;
+    causes.push_back(&single);
+  }
+  std::vector<FirstLook> looks;
+  for (std::size_t a = 0; a < causes.size(); ++a) {
+    for (std::size_t b = a + 1; b < causes.size(); ++b) {
+      if (only_mechanism(*causes[a]).spreads() && only_mechanism(*causes[b]).spreads()) continue;
+      looks.push_back({causes[a], causes[b], {}, {}});
+    }
+  }
+  Progress progress("pairs of causes", 2 * looks.size());
+  parallel_over(looks.size(), base.options.threads, [&](std::size_t k) {
+    look_once(base, k, looks[k]);
+    progress.advance();
+  });
+  const double worth = worth_following(looks);
+  std::vector<CandidateResult> results(looks.size());
+  parallel_over(looks.size(), base.options.threads, [&](std::size_t k) {
+    const bool follow = looks[k].delta_aicc <= worth;
+    results[k] = kept_candidate(base, KeptPiece::pair, k, names_of(looks[k]),
+                                [&] { return try_both(base, std::move(looks[k]), follow); });
+    progress.advance();
   });
   sort_by_criterion(results);
   return results;

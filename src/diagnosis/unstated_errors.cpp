@@ -26,6 +26,12 @@ constexpr double highest_of_steps = 15.0;
 constexpr double coherent = 0.9;
 constexpr std::size_t fewest_heights = 4;
 
+/// The height to which the sphere of `point` rebounds in vacuum, e^2 V^2 / 2g [m].
+double rebound_height(const ImpactPoint& point) {
+  const double rebound = point.restitution * point.incident_velocity;
+  return rebound * rebound / (2.0 * standard_gravity);
+}
+
 /// Sums over the rebounds of one size and velocity, for the coherence of their heights with a step.
 struct Heights {
   double sum = 0.0;      ///< sum of the heights [m]
@@ -55,28 +61,6 @@ double coherence(const Dataset& dataset, double step) {
   return low < fewest_heights ? 0.0 : sum / static_cast<double>(low);
 }
 
-}  // namespace
-
-double rebound_height(const ImpactPoint& point) {
-  const double rebound = point.restitution * point.incident_velocity;
-  return rebound * rebound / (2.0 * standard_gravity);
-}
-
-double height_step(const Dataset& dataset) {
-  if (dataset.system.method != Method::drop_heights) return 0.0;
-  for (const double step : steps_of_rulers) {
-    if (coherence(dataset, step) > coherent) return step;
-  }
-  return 0.0;
-}
-
-double height_step(const std::vector<Dataset>& datasets) {
-  double largest = 0.0;
-  for (const Dataset& dataset : datasets) largest = std::max(largest, height_step(dataset));
-  return largest;
-}
-namespace {
-
 constexpr double smallest_error = 0.002;  // relative error of a velocity
 constexpr double largest_error = 0.15;
 constexpr double smallest_reading = 2e-4;        // error of a height or a time, over the median one
@@ -105,10 +89,9 @@ double deviance_with_weights(const Observations& data, const Refit& refit) {
   return deviance_with_weights(data, refit.residuals) + refit.discrepancy->log_determinant();
 }
 
-/// The fraction of normal samples, after the same projection, with at least this ratio of the
-/// fourth moment to the square of the second: a few outlying points are not an error of all points.
-double tails_p(const StructureStatistics& statistics, std::span<const double> residuals,
-               const Samples& noise) {
+/// The fraction of `simulated` residuals with at least this ratio of the fourth moment to the
+/// square of the second: a few outlying points are not an error of all points.
+double tails_p(std::span<const double> residuals, const Samples& simulated) {
   const auto tails = [](std::span<const double> r) {
     double second = 0.0, fourth = 0.0;
     for (const double value : r) {
@@ -118,19 +101,18 @@ double tails_p(const StructureStatistics& statistics, std::span<const double> re
     return second > 0.0 ? fourth / (second * second) : 0.0;
   };
   const double own = tails(residuals);
-  const auto as_large =
-      std::ranges::count_if(statistics.residuals_of_noise(noise),
-                            [&](const std::vector<double>& r) { return tails(r) >= own; });
-  return (1.0 + static_cast<double>(as_large)) / (1.0 + static_cast<double>(noise.size()));
+  const auto as_large = std::ranges::count_if(
+      simulated, [&](const std::vector<double>& r) { return tails(r) >= own; });
+  return (1.0 + static_cast<double>(as_large)) / (1.0 + static_cast<double>(simulated.size()));
 }
 
 /// The smaller p-value of structure and tails of the residuals, corrected for two tests.
 double remaining_p(const SearchBase& base, const Observations& data, const Refit& refit,
                    std::span<const double> predicted) {
-  const double structure = quick_structure(data, refit, predicted, base.noise).p_value;
-  const double tails =
-      tails_p(StructureStatistics(data, refit, predicted), refit.residuals, base.noise);
-  return std::min(1.0, 2.0 * std::min(structure, tails));
+  const StructureStatistics statistics(data, refit, predicted);
+  const Samples simulated = statistics.residuals_of_noise(base.noise);
+  const Structure structure = judge_structure(statistics, refit.residuals, statistics(simulated));
+  return std::min(1.0, 2.0 * std::min(structure.p_value, tails_p(refit.residuals, simulated)));
 }
 
 /// The fit of the base model under the errors of `datasets` and `noise`.
@@ -142,13 +124,6 @@ FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets
   options.several_starts = false;
   options.start = base.fitted.theta;
   return fit(base.candidate.model, gather(datasets, noise), options);
-}
-
-FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
-  Noise::Spec noise = base.spec.noise;
-  noise.velocity_errors = true;
-  noise.velocity_relative_sd = relative_sd;
-  return fit_under(base, base.datasets, noise);
 }
 
 /// The reading of a rebound: a height [m], or a time of flight [s].
@@ -232,12 +207,16 @@ std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource sour
 }
 
 std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
-  const Observations& data = base.fitted.data;
-  const bool some = std::ranges::any_of(
-      data.points, [](const Observation& point) { return point.velocity_sd > 0.0; });
-  if (some) return std::nullopt;
+  const bool stated = std::ranges::any_of(
+      base.fitted.data.points, [](const Observation& point) { return point.velocity_sd > 0.0; });
+  if (stated) return std::nullopt;
   return likeliest(base, ErrorSource::velocity_errors, smallest_error, largest_error,
-                   [&](double sd) { return fit_with_velocity_errors(base, sd); });
+                   [&](double relative_sd) {
+                     Noise::Spec noise = base.spec.noise;
+                     noise.velocity_errors = true;
+                     noise.velocity_relative_sd = relative_sd;
+                     return fit_under(base, base.datasets, noise);
+                   });
 }
 
 /// The quantity that the instrument of all datasets reads; nullopt without a common one.
@@ -348,6 +327,20 @@ std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
 
 }  // namespace
 
+double height_step(const Dataset& dataset) {
+  if (dataset.system.method != Method::drop_heights) return 0.0;
+  for (const double step : steps_of_rulers) {
+    if (coherence(dataset, step) > coherent) return step;
+  }
+  return 0.0;
+}
+
+double height_step(const std::vector<Dataset>& datasets) {
+  double largest = 0.0;
+  for (const Dataset& dataset : datasets) largest = std::max(largest, height_step(dataset));
+  return largest;
+}
+
 std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
   if (base.spec.noise.student) return {};
   std::vector<UnstatedErrors> all;
@@ -358,9 +351,7 @@ std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
       if (found) all.push_back(*found);
     }
   }
-  std::ranges::sort(all, [](const UnstatedErrors& a, const UnstatedErrors& b) {
-    return a.delta_aicc < b.delta_aicc;
-  });
+  std::ranges::sort(all, {}, &UnstatedErrors::delta_aicc);
   return all;
 }
 

@@ -61,9 +61,6 @@ struct UnstatedErrors {
 /// few points are outlying, the stated errors of the others are right.
 std::vector<UnstatedErrors> unstated_errors(const SearchBase& base);
 
-/// The height to which the sphere of `point` rebounds in vacuum, e^2 V^2 / 2g [m].
-double rebound_height(const ImpactPoint& point);
-
 /// The step [m] of which the heights of the rebounds are multiples, if `dataset` states that
 /// velocities come from heights; 0 if it is none of 1, 2, 5 and 10 mm.
 ///

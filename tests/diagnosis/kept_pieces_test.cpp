@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "core/resumable.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/trial.hpp"
 #include "report/result_json.hpp"

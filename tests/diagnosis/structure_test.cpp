@@ -64,7 +64,7 @@ Structure structure_with(const std::vector<double>& shape, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<double> r = noise(random);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += shape[i];
-  made.fitted.residuals = made.statistics().residuals_of_noise(r);
+  made.fitted.residuals = made.statistics().residuals_of_noise({r}).front();
   return quick_structure(made.data, made.fitted, made.predicted,
                          white_noise(499, made.data.points.size(), 7));
 }
@@ -72,7 +72,7 @@ Structure structure_with(const std::vector<double>& shape, unsigned seed) {
 TEST(Structure, LeavesOutWhatTheModelCanFollow) {
   const Case made;
   std::mt19937 random(3);
-  const std::vector<double> r = made.statistics().residuals_of_noise(noise(random));
+  const std::vector<double> r = made.statistics().residuals_of_noise({noise(random)}).front();
   double sum = 0.0;
   for (const double value : r) sum += value;
   EXPECT_NEAR(sum, 0.0, 1e-12);
@@ -84,7 +84,7 @@ TEST(Structure, AccusesPureNoiseInFivePerCentOfCases) {
   constexpr int cases = 400;
   int accused = 0;
   for (int k = 0; k < cases; ++k) {
-    made.fitted.residuals = made.statistics().residuals_of_noise(noise(random));
+    made.fitted.residuals = made.statistics().residuals_of_noise({noise(random)}).front();
     const Structure found =
         quick_structure(made.data, made.fitted, made.predicted,
                         white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
@@ -124,7 +124,7 @@ TEST(Structure, TellsLargeScatterFromShape) {
   for (int k = 0; k < cases; ++k) {
     std::vector<double> r = noise(random);
     for (double& value : r) value *= 1.8;
-    made.fitted.residuals = made.statistics().residuals_of_noise(r);
+    made.fitted.residuals = made.statistics().residuals_of_noise({r}).front();
     made.data.noise.sd_stated = false;  // nobody said how large it should be
     const Structure found =
         quick_structure(made.data, made.fitted, made.predicted,
@@ -148,7 +148,7 @@ TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {
     const double u = static_cast<double>(i % speeds) / (speeds - 1.0);
     wave.push_back(3.0 * std::sin(2.0 * std::numbers::pi * u));
   }
-  const std::vector<double> r = made.statistics().residuals_of_noise(wave);
+  const std::vector<double> r = made.statistics().residuals_of_noise({wave}).front();
   const std::vector<double> shape = made.statistics().free_form(r);
   ASSERT_EQ(shape.size(), r.size());
   double left = 0.0, before = 0.0;
@@ -199,7 +199,7 @@ struct Drops {
       r.push_back(normal(random) + off[i] * 2.0 * std::sqrt(predicted[i]) * slope(i));
     }
     const StructureStatistics statistics(data, fitted, predicted);
-    fitted.residuals = statistics.residuals_of_noise(r);
+    fitted.residuals = statistics.residuals_of_noise({r}).front();
     return quick_structure(data, fitted, predicted, white_noise(199, data.points.size(), seed))
         .p_value;
   }
@@ -260,7 +260,7 @@ TEST(Structure, SeesACurveThatIsOffByThreeStandardErrorsOfAMean) {
       for (std::size_t i = 0; i < off.size(); ++i) {
         r.push_back(off[i] * 2.0 * std::sqrt(drops.predicted[i]) * drops.slope(i));
       }
-      r = statistics.residuals_of_noise(r);
+      r = statistics.residuals_of_noise({r}).front();
       double square = 0.0;
       for (const double value : r) square += value * value;
       const double scale = 3.0 * std::sqrt(heights / square);
