@@ -30,8 +30,8 @@ struct TableColumn {
   bool words = false;  ///< contains text: aligned left and wrapped
 };
 
-/// The first cell of a row is its heading. A column that is empty in all rows is not shown. A
-/// two-column table without headings is a list of names and values.
+/// The first cell of a row is its heading. Other columns are not shown if they are empty in all
+/// rows. A two-column table without headings is a list of names and values.
 struct Table {
   Sentence caption;
   std::vector<TableColumn> columns;

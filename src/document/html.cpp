@@ -324,6 +324,16 @@ std::string html_of(const Blocks& blocks) {
   return out;
 }
 
+std::string html_of(const std::vector<Section>& sections) {
+  std::string out;
+  for (const Section& section : sections) {
+    if (empty(section)) continue;
+    if (!section.title.empty()) out += fmt::format("<h3>{}</h3>\n", titled(section));
+    out += html_of(section.blocks);
+  }
+  return out;
+}
+
 std::string html_page(const Document& document) {
   std::string head = fmt::format("<header>\n<h1>{}</h1>\n", html_of(document.heading));
   if (!document.subtitle.empty()) {

@@ -18,6 +18,9 @@ std::string html_of(const Sentence& sentence);
 /// Blocks as HTML, without the page.
 std::string html_of(const Blocks& blocks);
 
+/// Sections as HTML, without the page. Titles are headings of the third level.
+std::string html_of(const std::vector<Section>& sections);
+
 /// A complete HTML file. Pictures are drawn.
 std::string html_page(const Document& document);
 

@@ -10,10 +10,12 @@
 /// Numbers formatted for readers.
 namespace recoil {
 
-/// `value` with at most `count` significant digits; "n/a" if it is not finite.
+/// `value` with at most `count` significant digits, or as a whole number from 10^count to 1e6;
+/// "n/a" if it is not finite.
 std::string number(double value, int count = 4);
 
-/// `value` with exactly `count` significant digits, including trailing zeros: "1.00".
+/// `value` with `count` significant digits, including trailing zeros: "1.00". Below 1e-4 and from
+/// 1e6 on the same as `number`.
 std::string digits(double value, int count);
 
 /// A value and its standard error. The error has two significant digits, and both have the same
@@ -47,6 +49,7 @@ inline Notation in_percent(Notation notation, const std::string& suffix = " %") 
   return notation;
 }
 
+/// `value` in this notation; "n/a" if it is not finite.
 std::string text_of(double value, const Notation& notation);
 
 /// An interval.

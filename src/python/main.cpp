@@ -266,12 +266,12 @@ std::string one_impact(const Valued& valued, double velocity, double diameter_um
 // ---- results -----------------------------------------------------------------------------------
 
 std::string summary_html(const Analysis& analysis) {
-  std::vector<Block> blocks;
+  std::vector<Section> shown;
   for (const Section& section : fit_sections(analysis)) {
     const bool answer = section.importance == Importance::answer && section.id != "picture";
-    if (answer) blocks.emplace_back(section);
+    if (answer) shown.push_back(section);
   }
-  return html_of(blocks);
+  return html_of(shown);
 }
 
 /// The profile likelihood of every free parameter by its label: values, rises and allowed rises.

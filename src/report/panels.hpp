@@ -22,7 +22,7 @@ struct Panel {
   std::vector<std::size_t> points;  ///< indices
 };
 
-/// The panels of a fit: one for each curve, or for each diameter if there are no curves. A point
+/// The first 24 panels of a fit: one for each curve, or for each diameter without curves. A point
 /// belongs to the panel of its dataset with the nearest diameter and, if several are equally near,
 /// with its own series. `analysis` must outlive the panels.
 std::vector<Panel> panels_of(const Analysis& analysis);

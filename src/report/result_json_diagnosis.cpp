@@ -187,8 +187,8 @@ std::string diagnosis_json(const Diagnosis& d) {
     if (!several->shared_cause.empty()) out.shared_cause = several->shared_cause;
   }
   out.candidates = candidates_of(d.candidates, d.candidates.size());
-  constexpr std::size_t most_pairs = 20;
-  out.pairs = candidates_of(d.pairs, most_pairs);
+  constexpr std::size_t listed_pairs = 20;
+  out.pairs = candidates_of(d.pairs, listed_pairs);
   out.gain = gain_of(d);
   const ExtendedModel none;
   const ExtendedModel& extended = d.extended() ? *d.extended() : none;

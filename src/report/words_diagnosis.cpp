@@ -290,14 +290,14 @@ std::string where_words(const Diagnosis& d) {
 }
 
 /// A mechanism with its title: "gas film (gas between the measuring plane and the contact)".
-std::string title_of(const std::string& id) {
+std::string mechanism_title(const std::string& id) {
   const Mechanism* mechanism = find_mechanism(id);
   return mechanism == nullptr ? words_of(id)
                               : fmt::format("{} ({})", words_of(id), mechanism->info.title);
 }
 
-std::string titles_of(const std::vector<std::string>& ids, const char* between) {
-  return joined(ids, between, title_of);
+std::string mechanism_titles(const std::vector<std::string>& ids, const char* between) {
+  return joined(ids, between, mechanism_title);
 }
 
 std::string gain_words(const Diagnosis& d) {
@@ -497,7 +497,8 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
 /// The cause that the misfit resembles, and why it is not possible.
 std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
   const CandidateResult* const first = single_named(d, shown.causes.front());
-  const std::string shape = fmt::format("The misfit resembles {}", titles_of(shown.causes, " or "));
+  const std::string shape =
+      fmt::format("The misfit resembles {}", mechanism_titles(shown.causes, " or "));
   return first == nullptr
              ? shape + ", which is not possible."
              : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
@@ -523,7 +524,7 @@ std::string unexplained_words(const Diagnosis& d) {
     return fmt::format(
         "No cause in the catalogue explains it. The closest is {}, which explains {:.0f} % of the "
         "misfit and leaves structure in the residuals ({}).",
-        title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
+        mechanism_title(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
         p_words(closest->remaining_p, quick_samples));
   }
   if (!tests_the_curve(d)) return "The points scatter more than their stated standard deviations.";
@@ -628,7 +629,7 @@ std::vector<std::string> expected_words(const Diagnosis& d) {
     words.push_back(fmt::format(
         "At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
         condition_words(effect.condition), effect.stated,
-        unit_suffix(info_of(effect.condition).unit), title_of(effect.id), effect.change,
+        unit_suffix(info_of(effect.condition).unit), mechanism_title(effect.id), effect.change,
         diameter_words(effect.diameter), effect.velocity));
   }
   return words;
@@ -712,7 +713,7 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
   } else if (d.answer_if<CauseNamed>()) {
     const std::vector<std::string> named = d.named();
     sentences.push_back(fmt::format("Of all mechanisms in the catalogue, only {} {}.",
-                                    titles_of(named, " and "),
+                                    mechanism_titles(named, " and "),
                                     named.size() == 1 ? "explains it" : "together explain it"));
     sentences.push_back(gain_words(d));
   } else if (const auto* several = d.answer_if<NotSeparable>()) {

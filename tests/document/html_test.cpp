@@ -81,6 +81,12 @@ TEST(Html, LabelsOfStackedRowsHaveTheMarkupOfTheHeadings) {
   EXPECT_THAT(html, HasSubstr("<span class=\"label\">rms of <i>e</i></span>2</td>"));
 }
 
+TEST(Html, SectionsWithoutAPageHaveHeadings) {
+  const std::vector<Section> sections = {{"a", "A", "", {Paragraph{"x"}}},
+                                         {"b", "B", "", {List{}}}};
+  EXPECT_EQ(html_of(sections), "<h3>A</h3>\n<p>x</p>\n");
+}
+
 TEST(Html, ContentsListWhatIsThere) {
   Document document;
   document.title = document.foot = "t";
