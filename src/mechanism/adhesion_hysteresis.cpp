@@ -20,8 +20,6 @@ Mechanism adhesion_hysteresis() {
       .id = "adhesion_hysteresis",
       .title = "separation takes more work per area than contact gains",
       .cause = "adhesion hysteresis",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula =
           "energy loss pi a_max^2 dW, dW = s W_A, with the work of adhesion W_A of the two bodies "
           "and the largest contact radius a_max of the damped impact; the slower sphere is damped "
@@ -35,9 +33,7 @@ Mechanism adhesion_hysteresis() {
       .parameters = {{.name = "hysteresis_factor",
                       .unit = "1",
                       .meaning = "s, (work of separation - work gained on contact) / W_A",
-                      .null_value = 0.0,
                       .initial = 0.15,
-                      .lower = 0.0,
                       .upper = 150.0,
                       .plausible = {0.0, 3.0,
                                     "the work of separation of organic solids is up to a few times "

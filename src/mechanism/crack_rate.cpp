@@ -125,8 +125,6 @@ Mechanism crack_rate() {
       .id = "crack_rate",
       .title = "adhesion that grows with the speed of the opening crack",
       .cause = "adhesion hysteresis",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula =
           "work of separation w = w_0 + w_1 (v_c / (1 m/s))^k, w_1 = s W_A, with the work of "
           "adhesion W_A of the two bodies; energy loss = integral of w_1 v_c^k d(pi a^2) during "
@@ -139,9 +137,7 @@ Mechanism crack_rate() {
       .parameters = {{.name = "crack_factor",
                       .unit = "1",
                       .meaning = "s, (rate-dependent work of separation at 1 m/s) / W_A",
-                      .null_value = 0.0,
                       .initial = 0.15,
-                      .lower = 0.0,
                       .upper = 150.0,
                       .plausible = {0.0, 30.0,
                                     "the rate multiplies the work of adhesion by up to a few tens"},

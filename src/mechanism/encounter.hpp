@@ -10,7 +10,7 @@
 #include "experiment/flight.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"
-#include "mechanism/mixed_sizes.hpp"
+#include "mechanism/survivors_mean.hpp"
 
 namespace recoil {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "mechanism/survivors_mean.hpp"
-
 namespace recoil {
 namespace {
 
@@ -281,7 +279,9 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       if (law.observe != nullptr) law.observe(observed, its);
     });
     answer.restitution_squared = value_of(observed.square);
-    keep_slopes(i, observed.square);
+    if constexpr (!std::is_same_v<T, double>) {
+      std::copy_n(observed.square.slope.begin(), directions(), &slopes_[i * directions()]);
+    }
     if (!std::isfinite(answer.restitution_squared)) {
       answer.outcome = ImpactOutcome::integration_failure;
     } else if (!(answer.restitution_squared > 0.0)) {
@@ -289,15 +289,6 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
     }
   }
   return handed_over;
-}
-
-template <class T>
-void ExtendedImpacts::keep_slopes([[maybe_unused]] std::size_t i,
-                                  [[maybe_unused]] const T& square) {
-  if constexpr (!std::is_same_v<T, double>) {
-    const std::size_t count = directions();
-    std::copy_n(square.slope.begin(), count, slopes_.begin() + static_cast<long>(i * count));
-  }
 }
 
 std::span<const double> ExtendedImpacts::slopes(std::size_t i) const {

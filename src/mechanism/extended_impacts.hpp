@@ -72,8 +72,6 @@ class ExtendedImpacts {
   template <class T>
   long evaluate_with(Workspace<T>& work, std::span<const double> values,
                      const ImpactOptions& options, SimulateImpacts simulate);
-  template <class T>
-  void keep_slopes(std::size_t i, const T& square);
 
   std::vector<const Mechanism*> chain_;
   std::vector<const Mechanism*> spreads_;  // mechanisms of the chain with `vary`

@@ -72,22 +72,20 @@ T risen(const Flight<T>& flight, const T& square) {
 struct FlightDrag {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
+    const Flight<T> flight(e, own[0]);
+    const T v = e.velocity;
     if (value_of(own[0]) == 0.0) {
-      e.velocity -= lost_to_first_order(e, own, e.velocity);
+      // The lost speed to first order in the pressure: (1 - v^2 / V^2) / 2 is the integral of the
+      // drag over the fall, (1/3) drag V for a constant drag per speed.
+      e.velocity -= flight.drag(v) * v * v * (1.0 / 3.0);
       return;
     }
-    e.velocity = sqrt(fallen(Flight<T>(e, own[0]), T(e.velocity * e.velocity)));
+    e.velocity = sqrt(fallen(flight, T(v * v)));
   }
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     if (!(value_of(e.square) > 0.0)) return;
     e.square = risen(Flight<T>(e, own[0]), e.square);
-  }
-  /// The lost speed to first order in the pressure: (1 - v^2 / V^2) / 2 is the integral of the drag
-  /// over the fall, (1/3) drag V for a constant drag per speed.
-  template <class T>
-  static T lost_to_first_order(const Encounter<T>& e, std::span<const T> own, const T& v) {
-    return Flight<T>(e, own[0]).drag(v) * v * v * (1.0 / 3.0);
   }
 };
 

@@ -116,12 +116,8 @@ struct Mechanism {
     if (info.needs_adhesion && !(at.adhesion_energy > 0.0)) return false;
     if (info.needs_flat && at.surface_diameter > 0.0) return false;
     if (info.needs_flow && at.elastomer) return false;
-    return at.method == Method::unknown || can_be_of(at.method);
-  }
-  /// True if it can occur in velocities that were measured by this method.
-  bool can_be_of(Method method) const {
-    return info.methods.empty() ||
-           std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
+    return at.method == Method::unknown || info.methods.empty() ||
+           std::ranges::find(info.methods, at.method) != info.methods.end();
   }
   bool spreads() const { return law<double>().vary != nullptr; }
   /// The reason why it cannot be combined with this law of adhesion; empty if it can.

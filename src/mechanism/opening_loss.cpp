@@ -61,8 +61,7 @@ struct Phase {
     if (stretch == 0.0) return {0.0, 0.0};  // faster than u / x^(1/2) grows
     const double gamma = gamma_acts ? g.gamma : 0.0;
     const double root = std::sqrt(x);
-    const double square =
-        2.0 * (bottom - x * root * (0.4 * x - 2.0 / 3.0 * g.beta) + direction * lost);
+    const double square = 2.0 * (bottom - potential(x, g.beta) + direction * lost);
     // A captured sphere stops, and the opening with it: u^2 is smoothed over this width.
     constexpr double width = 1e-4;
     const double hypotenuse = std::sqrt(square * square + width * width);

@@ -3,11 +3,26 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <utility>
 
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
+namespace {
+
+/// The place where `rises` changes from false at `lower` to true at `upper`, by bisection down to
+/// neighbouring numbers, in a range that may span eighteen decades.
+template <class Rises>
+double change(const Rises& rises, double lower, double upper) {
+  constexpr int halvings = 1100;  // more than the exponents of a double
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = lower + 0.5 * (upper - lower);
+    if (middle <= lower || middle >= upper) break;
+    (rises(middle) ? upper : lower) = middle;
+  }
+  return upper;
+}
+
+}  // namespace
 
 const std::vector<Parameter>& base_parameters(AdhesionLaw law) {
   // Initial values: C_H V = 0.03 at 10 m/s gives 1 - e = (2/3) C_H V = 0.02, and this C_A gives a
@@ -62,14 +77,14 @@ const Parameter& parameter_of(Body body, Constant constant) {
   };
   const auto entry = [](Body of, Constant which, std::string_view name, std::string_view unit,
                         std::string_view meaning) {
-    Parameter parameter;
-    parameter.name = name;
-    parameter.unit = unit;
-    parameter.meaning = meaning;
-    parameter.free = false;
-    parameter.log_scale = is_positive(which);
-    parameter.role = ParameterRole::material_constant;
-    return Entry{of, which, std::move(parameter)};
+    return Entry{of,
+                 which,
+                 {.name = name,
+                  .unit = unit,
+                  .meaning = meaning,
+                  .free = false,
+                  .log_scale = is_positive(which),
+                  .role = ParameterRole::material_constant}};
   };
   using enum Constant;
   static const std::vector<Entry> all = {
@@ -95,11 +110,10 @@ const Parameter& parameter_of(Body body, Constant constant) {
       entry(Body::pair, adhesion_energy, "adhesion_energy", "J/m2", "work of adhesion"),
       entry(Body::pair, adhesion_force_f0, "adhesion_force_f0", "N/m",
             "adhesion force per length of the contact's edge")};
-  for (const Entry& candidate : all) {
-    if (candidate.body == body && candidate.constant == constant) return candidate.parameter;
-  }
-  assert(false && "no such constant of this body");
-  return all.front().parameter;
+  const auto found = std::ranges::find_if(
+      all, [&](const Entry& one) { return one.body == body && one.constant == constant; });
+  assert(found != all.end());
+  return found->parameter;
 }
 
 std::optional<StatedValue> stated_value(const Parameter& parameter, const Surroundings& at,
@@ -113,8 +127,8 @@ std::optional<StatedValue> stated_value(const Parameter& parameter, const Surrou
     } else if (by.value != nullptr) {
       value = by.value(*condition, at, conditions);
     }
-    if (value)
-      return StatedValue{std::clamp(*value, parameter.lower, parameter.upper), by.condition};
+    if (!value) continue;
+    return StatedValue{std::clamp(*value, parameter.lower, parameter.upper), by.condition};
   }
   return std::nullopt;
 }
@@ -135,32 +149,6 @@ std::vector<const Parameter*> parameters_with(const std::vector<std::string>& id
   return parameters;
 }
 
-namespace {
-
-/// The place where `rises` changes from false at `lower` to true at `upper`, by bisection down to
-/// neighbouring numbers, in a range that may span eighteen decades.
-template <class Rises>
-double change(const Rises& rises, double lower, double upper) {
-  constexpr int halvings = 1100;  // more than the exponents of a double
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = lower + 0.5 * (upper - lower);
-    if (middle <= lower || middle >= upper) break;
-    (rises(middle) ? upper : lower) = middle;
-  }
-  return upper;
-}
-
-/// The largest value of the limit's quantity.
-double largest_of(const PlausibleLimit& limit, std::span<const double> own,
-                  std::span<const Encounter<double>> spheres) {
-  double largest = -std::numeric_limits<double>::infinity();
-  for (const Encounter<double>& sphere : spheres)
-    largest = std::max(largest, limit.of(sphere, own));
-  return largest;
-}
-
-}  // namespace
-
 AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::span<const double> own,
                              std::span<const Encounter<double>> spheres) {
   AllowedValues allowed{parameter.plausible.lower, parameter.plausible.upper};
@@ -169,7 +157,11 @@ AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::spa
   std::vector<double> values(own.begin(), own.end());
   const auto quantity = [&](double value) {
     values[k] = value;
-    return largest_of(limit, values, spheres);
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const Encounter<double>& sphere : spheres) {
+      largest = std::max(largest, limit.of(sphere, values));
+    }
+    return largest;
   };
   allowed.quantity = quantity(own[k]);
   const double lower = allowed.lower;

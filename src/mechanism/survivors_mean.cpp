@@ -6,6 +6,7 @@
 
 #include "core/numerics.hpp"
 #include "core/units.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -176,6 +177,30 @@ void add_seen_part(std::span<const T> x, const T& edge, double end, const SizePi
   }
 }
 
+/// Standard deviation of ln d, with a uniform density within each bin.
+double spread_of(const MeasuredSizes& sizes) {
+  constexpr int parts = 50;
+  const std::vector<SizeBin> fine = spread_within_bins(sizes.bins, parts);
+  double mean = 0.0;
+  double square = 0.0;
+  for (const SizeBin& bin : fine) mean += bin.weight / sizes.total() * std::log(bin.diameter);
+  for (const SizeBin& bin : fine) {
+    square += bin.weight / sizes.total() * std::pow(std::log(bin.diameter) - mean, 2);
+  }
+  return std::sqrt(square);
+}
+
+std::vector<SizePiece::Sphere> spheres_of(const SizeBin& bin, double part, double middle,
+                                          double rate) {
+  constexpr std::size_t count = 5;  // per bin; e is a smooth function of d
+  std::vector<SizePiece::Sphere> spheres;
+  for (const QuadratureNode& node : gauss_legendre(bin.width > 0.0 ? count : 1)) {
+    const double d = bin.diameter + (node.at - 0.5) * bin.width;
+    spheres.push_back({part * node.weight, basis_at((std::log(d) - middle) / rate).value});
+  }
+  return spheres;
+}
+
 }  // namespace
 
 const std::array<double, spread_nodes>& spread_positions() {
@@ -198,8 +223,6 @@ double cut_scale() {
                                 (2.0 * normal_probability(spread_reach) - 1.0));
   return scale;
 }
-
-std::array<double, spread_nodes> interpolation_weights(double z) { return basis_at(z).value; }
 
 template <class T>
 T survivors_square(std::span<const T> x, const T& seen, const MixedSizes& sizes) {
@@ -242,34 +265,6 @@ template SeveralDirections survivors_square(std::span<const SeveralDirections>,
                                             const SeveralDirections&, const MixedSizes&);
 template ManyDirections survivors_square(std::span<const ManyDirections>, const ManyDirections&,
                                          const MixedSizes&);
-
-namespace {
-
-/// Standard deviation of ln d, with a uniform density within each bin.
-double spread_of(const MeasuredSizes& sizes) {
-  constexpr int parts = 50;
-  const std::vector<SizeBin> fine = spread_within_bins(sizes.bins, parts);
-  double mean = 0.0;
-  double square = 0.0;
-  for (const SizeBin& bin : fine) mean += bin.weight / sizes.total() * std::log(bin.diameter);
-  for (const SizeBin& bin : fine) {
-    square += bin.weight / sizes.total() * std::pow(std::log(bin.diameter) - mean, 2);
-  }
-  return std::sqrt(square);
-}
-
-std::vector<SizePiece::Sphere> spheres_of(const SizeBin& bin, double part, double middle,
-                                          double rate) {
-  constexpr std::size_t count = 5;  // per bin; e is a smooth function of d
-  std::vector<SizePiece::Sphere> spheres;
-  for (const QuadratureNode& node : gauss_legendre(bin.width > 0.0 ? count : 1)) {
-    const double d = bin.diameter + (node.at - 0.5) * bin.width;
-    spheres.push_back({part * node.weight, interpolation_weights((std::log(d) - middle) / rate)});
-  }
-  return spheres;
-}
-
-}  // namespace
 
 MixedSizes mixed_sizes_of(const MeasuredSizes& sizes) {
   MixedSizes out;

@@ -3,13 +3,11 @@
 namespace recoil {
 namespace {
 
-constexpr double closest = 0.4e-9;  // z0, distance of two surfaces in contact [m]
-
 struct VanDerWaalsApproach {
-  /// 2 U / m, U = A R / (6 z0).
+  /// 2 U / m, U = A R / (6 z0), with the distance z0 of two surfaces in contact.
   template <class T>
   static T gained(const Encounter<T>& e, std::span<const T> own) {
-    return own[0] * e.radius() / (3.0 * closest * e.mass());
+    return own[0] * e.radius() / (3.0 * equilibrium_separation * e.mass());
   }
 };
 

@@ -11,7 +11,7 @@
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/terminal.hpp"
-#include "mechanism/mixed_sizes.hpp"
+#include "mechanism/survivors_mean.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
