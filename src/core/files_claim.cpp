@@ -44,6 +44,33 @@ void name_owner(int file) {
   if (ftruncate(file, 0) == 0 && pwrite(file, words.data(), words.size(), 0) < 0) return;
 }
 
+/// Opens and locks the file `mark` of `result`. @throws InputError as the constructor of Claim
+int locked_file(const std::filesystem::path& mark, const std::filesystem::path& result) {
+  for (;;) {
+    const int file =
+        open(mark.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    const int error = file < 0 ? errno : 0;
+    if (error == ELOOP || (error == 0 && !is_mark(file))) {
+      if (file >= 0) close(file);
+      throw InputError({mark.string()}, "this is not a lock file of recoil",
+                       "it is a link, or its contents are different", "remove it");
+    }
+    if (error != 0) throw cannot_be_written(result, error);
+    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) return file;
+      const std::string owner = owner_in(file);
+      close(file);
+      throw InputError({result.string()}, "another recoil process is writing this result", owner,
+                       "wait until it has ended, or choose another place");
+    }
+    if (is_still_there(file, mark)) {
+      name_owner(file);
+      return file;
+    }
+    close(file);
+  }
+}
+
 }  // namespace
 
 Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lock") {
@@ -54,35 +81,13 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
   }
   failed.clear();
   if (!made_.empty()) std::filesystem::create_directories(result.parent_path(), failed);
-  if (failed) {
+  try {
+    if (failed) throw cannot_be_written(result, failed.value());
+    file_ = locked_file(mark_, result);
+  } catch (const InputError&) {
     remove_empty_folders();
-    throw cannot_be_written(result, failed.value());
+    throw;
   }
-  for (;;) {
-    file_ = open(mark_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-    const int error = file_ < 0 ? errno : 0;
-    if (error == ELOOP || (error == 0 && !is_mark(file_))) {
-      if (file_ >= 0) close(file_);
-      remove_empty_folders();
-      throw InputError({mark_.string()}, "this is not a lock file of recoil",
-                       "it is a link, or its contents are different", "remove it");
-    }
-    if (error != 0) {
-      remove_empty_folders();
-      throw cannot_be_written(result, error);
-    }
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      if (errno != EWOULDBLOCK) return;
-      const std::string owner = owner_in(file_);
-      close(file_);
-      remove_empty_folders();
-      throw InputError({result.string()}, "another recoil process is writing this result", owner,
-                       "wait until it has ended, or choose another place");
-    }
-    if (is_still_there(file_, mark_)) break;
-    close(file_);
-  }
-  name_owner(file_);
 }
 
 Claim::~Claim() {

@@ -178,12 +178,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The message if a field of two origins differs. The list begins with the most general field.
-struct Difference {
-  const char* field;
-  const char* words;
-};
-constexpr Difference differences[] = {
+/// The messages if a field of two origins differs. The list begins with the most general field.
+constexpr std::pair<const char*, const char*> differences[] = {
     {"version", "they come from different versions of recoil"},
     {"program", "they come from different builds of recoil"},
     {"seed", "their seeds differ"},
@@ -222,7 +218,7 @@ std::optional<Part> part_in(const fs::path& file) {
     if (!shard || origin.command.empty() || origin.pieces < 1 || origin.pieces > most_pieces) {
       return std::nullopt;
     }
-    return Part{file, part.origin, *shard};
+    return Part{file, origin, *shard};
   } catch (const JsonMismatch&) {
     return std::nullopt;
   }

@@ -52,8 +52,7 @@ double adhesion_force_for(double adhesion_energy, double radius, double stiffnes
 }
 
 double adhesion_energy_for(double adhesion_force, double radius, double stiffness) {
-  return std::pow(2.0 * std::numbers::pi * adhesion_force, 1.5) /
-         (6.0 * std::numbers::pi * std::sqrt(stiffness * radius));
+  return std::pow(2.0 * pi * adhesion_force, 1.5) / (6.0 * pi * std::sqrt(stiffness * radius));
 }
 
 double sphere_mass(double diameter, double density) {
@@ -104,24 +103,22 @@ ContactProperties derive_contact(const ImpactSystem& system, double reference_di
       gilman_surface_energy(system.particle.youngs_modulus));
   contact.gamma_surface =
       system.surface.surface_energy.value_or(gilman_surface_energy(system.surface.youngs_modulus));
-  const double energy_derived = 2.0 * std::sqrt(contact.gamma_particle * contact.gamma_surface);
-  contact.adhesion_energy_derived = energy_derived;
-  contact.adhesion_energy = system.adhesion_energy.value_or(energy_derived);
-  if (contact.adhesion_energy > 0.0 && contradicts(contact.adhesion_energy, energy_derived)) {
+  contact.adhesion_energy_derived = 2.0 * std::sqrt(contact.gamma_particle * contact.gamma_surface);
+  contact.adhesion_energy = system.adhesion_energy.value_or(contact.adhesion_energy_derived);
+  if (contact.adhesion_energy > 0.0 &&
+      contradicts(contact.adhesion_energy, contact.adhesion_energy_derived)) {
     contact.contradictions.push_back(fmt::format(
         "adhesion_energy = {:.4g} J/m2 is stated, but the two surface energies give W_A = {:.4g} "
         "J/m2; the stated W_A is used",
-        contact.adhesion_energy, energy_derived));
+        contact.adhesion_energy, contact.adhesion_energy_derived));
   }
 
   contact.equilibrium_radius =
       equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness);
   contact.adhesion_force_derived =
       adhesion_force_per_length(contact.stiffness, contact.equilibrium_radius, radius);
-  contact.adhesion_force_materials = adhesion_force_per_length(
-      contact.stiffness_derived,
-      equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness_derived),
-      radius);
+  contact.adhesion_force_materials =
+      adhesion_force_for(contact.adhesion_energy, radius, contact.stiffness_derived);
   contact.adhesion_force = system.adhesion_force_f0.value_or(contact.adhesion_force_derived);
   if (contradicts(contact.adhesion_force, contact.adhesion_force_derived)) {
     contact.contradictions.push_back(fmt::format(

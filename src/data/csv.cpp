@@ -136,28 +136,24 @@ void read_csv(std::string_view text, const std::string& file, char delimiter,
 
 std::optional<double> parse_number(std::string_view text, const NumberFormat& format) {
   std::string plain(trimmed(text));
-  const std::size_t mark = std::min(plain.find(format.decimal), plain.size());
-  const std::size_t whole = std::min(mark, std::min(plain.find_first_of("eE"), plain.size()));
-  std::string digits;
-  for (std::size_t at = 0; at < whole;) {
-    const std::size_t end =
-        format.group.empty() ? whole : std::min(plain.find(format.group, at), whole);
-    const std::string part = plain.substr(at, end - at);
-    const bool last = end == whole;
-    const bool grouped = at > 0 || !last;
-    const bool right =
-        at > 0 ? part.size() == 3 && part.find_first_not_of("0123456789") == std::string::npos
-               : part.size() <= (part.starts_with('-') || part.starts_with('+') ? 4U : 3U);
-    if (grouped && (!right || part.empty())) return std::nullopt;
-    digits += part;
-    at = last ? whole : end + format.group.size();
-    if (!last && at >= whole) return std::nullopt;  // a group mark that nothing follows
+  std::size_t whole =
+      std::min({plain.find(format.decimal), plain.find_first_of("eE"), plain.size()});
+  const std::size_t mark = format.group.size();
+  std::size_t at = mark == 0 ? whole : plain.find(format.group);
+  const std::size_t longest = plain.starts_with('-') || plain.starts_with('+') ? 4 : 3;
+  if (at < whole && (at == 0 || at > longest)) return std::nullopt;
+  for (; at < whole; at += 3) {  // removes the group marks
+    const std::size_t end = at + mark + 3;
+    const bool three = end <= whole && plain.find_first_not_of("0123456789", at + mark) >= end &&
+                       (end == whole || plain.compare(end, mark, format.group) == 0);
+    if (!three) return std::nullopt;
+    plain.erase(at, mark);
+    whole -= mark;
   }
-  plain.replace(0, whole, digits);
   if (format.decimal != ".") {
     if (plain.find('.') != std::string::npos) return std::nullopt;
-    const std::size_t at = plain.find(format.decimal);
-    if (at != std::string::npos) plain.replace(at, format.decimal.size(), ".");
+    const std::size_t point = plain.find(format.decimal);
+    if (point != std::string::npos) plain.replace(point, format.decimal.size(), ".");
   }
   return parse_number(plain);
 }
@@ -166,8 +162,7 @@ double number_in(const CsvField& cell, const std::string& file, const std::strin
                  const NumberFormat& format) {
   if (const auto value = parse_number(cell.text, format)) return *value;
   std::string word = cell.text;
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::string suggestion = "write a decimal number such as 4.9 or 4.9e-6";
   const std::size_t comma = word.find(',');
   if (format.decimal != ".") {

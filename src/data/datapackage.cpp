@@ -16,29 +16,10 @@ namespace {
 
 bool is_count(Quantity quantity) { return dimension_of(quantity) == Dimension::count; }
 
-/// True for a flag, and for a count that is 0 or 1 for a single impact.
-bool may_be_boolean(Quantity quantity) {
-  return is_count(quantity) && quantity != Quantity::events;
-}
-
 std::vector<std::string> read_words(const JsonNode& list) {
   std::vector<std::string> words;
   for (const JsonNode& word : list.items()) words.push_back(word.string());
   return words;
-}
-
-/// Refuses keys of `node` that are among `changing` (they change the meaning of cells) and not
-/// among `known`.
-void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
-                   const std::vector<std::string>& changing) {
-  for (const JsonNode& member : node.members()) {
-    const std::string& key = member.key();
-    if (std::ranges::find(known, key) != known.end()) continue;
-    if (std::ranges::find(changing, key) == changing.end()) continue;
-    member.fail(fmt::format("{} is not supported", quote(key)),
-                "recoil would read the cells differently",
-                fmt::format("remove it; supported: {}", join(known)));
-  }
 }
 
 /// Refuses the key unless its value is `usual`, which is what the reader does.
@@ -92,7 +73,8 @@ void read_type(const JsonNode& field, Column& column) {
   const std::string word = type.string();
   std::vector<std::string> allowed = {"number", "integer"};
   if (text) allowed = {"string"};
-  if (may_be_boolean(quantity)) allowed.emplace_back("boolean");
+  // A flag, or a count that is 0 or 1 for a single impact.
+  if (is_count(quantity) && quantity != Quantity::events) allowed.emplace_back("boolean");
   if (std::ranges::find(allowed, word) == allowed.end()) {
     type.fail(fmt::format("the type of '{}' is {}", name_of(quantity), quote(word)), "",
               fmt::format("write {}", join(allowed)));
@@ -137,20 +119,18 @@ Column read_field(const JsonNode& field) {
   return column;
 }
 
-const Column* find_column(const std::vector<Column>& columns, Quantity quantity) {
-  const auto found =
-      std::ranges::find_if(columns, [&](const Column& c) { return c.quantity == quantity; });
-  return found == columns.end() ? nullptr : &*found;
+bool has_column(const std::vector<Column>& columns, Quantity quantity) {
+  return std::ranges::find(columns, quantity, &Column::quantity) != columns.end();
 }
 
 void check_completeness(const JsonNode& fields, const std::vector<Column>& columns) {
+  const auto there = [&](Quantity quantity) { return has_column(columns, quantity); };
   for (const Quantity needed :
        {Quantity::series, Quantity::diameter, Quantity::incident_velocity}) {
-    if (find_column(columns, needed) != nullptr) continue;
+    if (there(needed)) continue;
     fields.fail(fmt::format("the field '{}' is missing", name_of(needed)), "every point needs it",
                 "add it to the schema and the CSV file");
   }
-  const auto there = [&](Quantity quantity) { return find_column(columns, quantity) != nullptr; };
   if (!there(Quantity::restitution) && !there(Quantity::rebound_velocity) &&
       !(there(Quantity::events) && there(Quantity::captured))) {
     fields.fail("neither 'restitution' nor 'rebound_velocity' is there",
@@ -166,12 +146,12 @@ std::vector<Column> read_fields(const JsonNode& fields) {
     const auto name_fails = [&](const std::string& problem, const std::string& why) {
       field.find("name")->fail(problem, why, "remove one");
     };
-    if (find_column(columns, column.quantity) != nullptr) {
+    if (has_column(columns, column.quantity)) {
       name_fails(fmt::format("the field '{}' appears twice", column.name), "");
     }
     columns.push_back(column);
-    if (find_column(columns, Quantity::restitution) != nullptr &&
-        find_column(columns, Quantity::rebound_velocity) != nullptr) {
+    if (has_column(columns, Quantity::restitution) &&
+        has_column(columns, Quantity::rebound_velocity)) {
       name_fails("both 'restitution' and 'rebound_velocity' are there",
                  "they could contradict each other");
     }
@@ -238,11 +218,16 @@ void read_dialect(const JsonNode& resource, Package& package) {
   }
   require_usual(*dialect, "quoteChar", "\"");
   require_usual(*dialect, "doubleQuote", true);
-  refuse_others(*dialect,
-                {"delimiter", "header", "commentChar", "quoteChar", "doubleQuote", "lineTerminator",
-                 "skipInitialSpace", "caseSensitiveHeader", "csvddfVersion"},
-                {"escapeChar", "nullSequence", "headerRows", "headerJoin", "commentRows",
-                 "itemType", "itemKeys", "sheetNumber", "sheetName", "property", "table"});
+  const std::vector<std::string> changing = {
+      "escapeChar", "nullSequence", "headerRows", "headerJoin", "commentRows", "itemType",
+      "itemKeys",   "sheetNumber",  "sheetName",  "property",   "table"};
+  for (const JsonNode& member : dialect->members()) {
+    if (std::ranges::find(changing, member.key()) == changing.end()) continue;
+    member.fail(fmt::format("{} is not supported", quote(member.key())),
+                "recoil would read the cells differently",
+                "remove it; supported: delimiter, header, commentChar, quoteChar, doubleQuote, "
+                "lineTerminator, skipInitialSpace, caseSensitiveHeader, csvddfVersion");
+  }
 }
 
 void read_resource(const JsonNode& root, Package& package) {
@@ -273,11 +258,8 @@ void read_resource(const JsonNode& root, Package& package) {
 /// Reads the package's name, which has to be usable as the name of a file (Frictionless).
 std::string read_id(const JsonNode& node) {
   const std::string id = node.string();
-  const bool plain = std::ranges::all_of(id, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  });
-  if (id.empty() || id.front() == '.' || !plain) {
+  constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  if (id.empty() || id.front() == '.' || id.find_first_not_of(plain) != std::string::npos) {
     node.fail(fmt::format("the name {} cannot be the name of a file", quote(id)), "",
               "use letters, digits, '.', '_' and '-', as in wall1990-mica");
   }

@@ -46,15 +46,16 @@ std::vector<Arrival> arrivals_of(const std::vector<Passage>& passages, const Pai
 std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
                                 const AverageOptions& options) {
   if (!options.size_edges.empty()) return options.size_edges;
+  if (arrivals.empty()) return {0.0, 1.0};
   std::vector<double> sizes;
   for (const Arrival& arrival : arrivals) sizes.push_back(arrival.diameter);
   std::ranges::sort(sizes);
-  std::vector<double> edges = {sizes.empty() ? 0.0 : sizes.front()};
+  std::vector<double> edges = {sizes.front()};
   for (std::size_t k = 1; k < options.size_classes; ++k) {
-    const double edge = sizes.empty() ? 0.0 : sizes[k * sizes.size() / options.size_classes];
+    const double edge = sizes[k * sizes.size() / options.size_classes];
     if (edge > edges.back()) edges.push_back(edge);
   }
-  edges.push_back(sizes.empty() ? 1.0 : sizes.back());
+  edges.push_back(sizes.back());
   return edges;
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/files.hpp"
 #include "data/contact.hpp"
-#include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 #include "experiment/import_table.hpp"
 

@@ -15,13 +15,14 @@ struct FigureAxis {
   std::string name;                                 ///< "x" or "y"
   Quantity quantity = Quantity::incident_velocity;  ///< of its coordinate
   double factor = 1.0;                              ///< of the coordinate, to SI
-  bool stated = false;                              ///< by --axis; otherwise its ends are unknown
   bool logarithmic = false;
   double lower = 0.0;
   double upper = 0.0;
   double pixels = 0.0;         ///< its length in the picture; 0 when not stated
   double reading_error = 0.0;  ///< one standard deviation, part of the axis [1]; 0: not stated
 
+  /// True if --axis states its ends.
+  bool stated() const { return lower < upper; }
   /// One standard deviation of a reading at `value`, in the unit of the axis.
   double error_at(double value) const {
     return logarithmic ? std::abs(value) * reading_error * std::log(upper / lower)
@@ -56,7 +57,6 @@ void read_axis(FigureAxis& axis, const std::string& text) {
   axis.upper = *upper;
   axis.pixels = parts.size() == 4 ? positive_with(parts[3], "px").value_or(0.0) : 0.0;
   if (parts.size() == 4 && !(axis.pixels > 0.0)) fail("its length is a number of pixels");
-  axis.stated = true;
 }
 
 void read_axes(const ImportRequest& request, FigureAxes& axes) {
@@ -83,7 +83,7 @@ void read_reading_error(const std::string& word, FigureAxes& axes) {
                      "", "write --reading-error 0.5% or --reading-error 2px");
   }
   for (FigureAxis& axis : axes) {
-    if (!axis.stated) {
+    if (!axis.stated()) {
       throw InputError(
           {}, fmt::format("--reading-error without --axis {}=...", axis.name),
           "a percentage of an axis means nothing without its ends",

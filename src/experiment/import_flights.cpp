@@ -8,13 +8,10 @@
 #include <utility>
 
 #include "core/statistics.hpp"
-#include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 
 namespace recoil {
 namespace {
-
-constexpr double thinnest_air = 1e-3;  // [Pa]
 
 /// Computes the flights of the spheres of one import, and records the effect of air on e.
 class Flights {
@@ -391,7 +388,7 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
 
 }  // namespace
 
-bool air_acts(const Air& air) { return air.pressure >= thinnest_air; }
+bool air_acts(const Air& air) { return air.pressure >= 1e-3; }
 
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
   ImportTable table(request, {{"series", Dimension::text},

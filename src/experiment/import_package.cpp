@@ -229,16 +229,14 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
 }
 
 PointsText points_text(const std::vector<ImportedPoint>& points) {
-  const auto any = [&](Quantity quantity) {
-    return std::any_of(points.begin(), points.end(), [&](const ImportedPoint& point) {
-      return quantity == Quantity::setting  ? !point.setting.empty()
-             : quantity == Quantity::launch ? !point.launch.empty()
-                                            : point.value[quantity].has_value();
-    });
-  };
   const bool millimetres = std::ranges::all_of(points, [](const ImportedPoint& point) {
     return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
   });
+  const auto any = [&](Quantity quantity) {
+    const Output output = output_of(quantity, millimetres);
+    return std::ranges::any_of(
+        points, [&](const ImportedPoint& point) { return !cell_of(point, output).empty(); });
+  };
   PointsText text;
   std::vector<Output> outputs;
   for (const Quantity quantity : values_of<Quantity>()) {

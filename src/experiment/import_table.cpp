@@ -548,14 +548,12 @@ void ImportTable::read_map(const std::string& entry) {
     source.constant =
         known_scale(quantity->dimension, constant->second.empty() && pure ? "1" : constant->second,
                     fmt::format("--map {}", quantity->name), {})(constant->first);
-  } else if (is_column(column)) {
-    source.at = {column_named(column)};
   } else {
-    for (std::size_t at = 0; at != std::string::npos;) {
-      const std::size_t plus = column.find('+', at);
-      source.at.push_back(
-          column_named(column.substr(at, plus == std::string::npos ? plus : plus - at)));
-      at = plus == std::string::npos ? plus : plus + 1;
+    for (std::size_t at = 0; at <= column.size();) {
+      const std::size_t end =
+          is_column(column) ? column.size() : std::min(column.find('+', at), column.size());
+      source.at.push_back(column_named(column.substr(at, end - at)));
+      at = end + 1;
     }
   }
   for (const std::size_t at : source.at) {
@@ -584,18 +582,18 @@ std::vector<std::string> ImportTable::header_names() const {
 std::size_t ImportTable::column_named(const std::string& name) const {
   const std::vector<std::string> names = header_names();
   const auto found = std::ranges::find(names, name);
-  if (found != names.end()) {
-    const auto again = std::find(std::next(found), names.end(), name);
-    const auto at = static_cast<std::size_t>(found - names.begin());
-    if (again == names.end()) return at;
-    throw InputError(header_[static_cast<std::size_t>(again - names.begin())].in(file_),
-                     fmt::format("the column {} appears twice", quote(name)),
-                     "it is not known which one --map means", "rename one of them");
+  if (found == names.end()) {
+    throw InputError({file_, header_.front().line, 1},
+                     fmt::format("no column is called {}", quote(name)),
+                     named_ ? "--map asks for it" : "there is no header, and --map asks for it",
+                     named_ ? did_you_mean(name, names)
+                            : fmt::format("the columns are called {}", listed(names)));
   }
-  throw InputError(
-      {file_, header_.front().line, 1}, fmt::format("no column is called {}", quote(name)),
-      named_ ? "--map asks for it" : "there is no header, and --map asks for it",
-      named_ ? did_you_mean(name, names) : fmt::format("the columns are called {}", listed(names)));
+  const auto again = std::find(std::next(found), names.end(), name);
+  if (again == names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw InputError(header_[static_cast<std::size_t>(again - names.begin())].in(file_),
+                   fmt::format("the column {} appears twice", quote(name)),
+                   "it is not known which one --map means", "rename one of them");
 }
 
 Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& unit,

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "core/statistics.hpp"
-#include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 
 namespace recoil {
@@ -76,6 +75,8 @@ struct Arc {
   std::size_t end = 0;
   double middle = 0.0;  ///< t_k [s]
   bool good = true;     ///< it has enough samples and falls like the others
+  double fall = 0.0;    ///< its own a [m/s2], or pixels/s2
+  double fall_sd = 0.0;
 
   std::size_t size() const { return end > begin ? end - begin : 0; }
 };
@@ -117,7 +118,6 @@ struct Parabolas {
   Eigen::VectorXd values;
   Eigen::MatrixXd covariance;         ///< divided by the variance of a height
   double variance = 0.0;              ///< of a height, from the residuals
-  long freedom = 0;                   ///< degrees of freedom
   std::vector<std::ptrdiff_t> first;  ///< index of c_k of every arc; -1 for one that is not good
 };
 
@@ -148,9 +148,9 @@ Parabolas fit_parabolas(const std::vector<Sample>& samples, const std::vector<Ar
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(design);
   fit.values = solver.solve(heights);
   fit.covariance = (design.transpose() * design).inverse();
-  fit.freedom = rows - unknowns;
-  if (fit.freedom > 0) {
-    fit.variance = (heights - design * fit.values).squaredNorm() / static_cast<double>(fit.freedom);
+  if (rows > unknowns) {
+    fit.variance =
+        (heights - design * fit.values).squaredNorm() / static_cast<double>(rows - unknowns);
   }
   return fit;
 }
@@ -159,20 +159,18 @@ Parabolas fit_parabolas(const std::vector<Sample>& samples, const std::vector<Ar
 /// whose own a differs from the median by more than 30 % and more than four standard deviations.
 void reject_others(const std::vector<Sample>& samples, std::vector<Arc>& arcs) {
   const double noise = noise_of(samples);
-  std::vector<double> falls(arcs.size(), 0.0);
-  std::vector<double> errors(arcs.size(), 0.0);
-  std::vector<double> known;
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    if (!arcs[k].good) continue;
-    const Parabolas own = fit_parabolas(samples, {arcs[k]});
-    falls[k] = own.values(2);
-    errors[k] = noise * std::sqrt(own.covariance(2, 2));
-    known.push_back(falls[k]);
+  std::vector<double> falls;
+  for (Arc& arc : arcs) {
+    if (!arc.good) continue;
+    const Parabolas own = fit_parabolas(samples, {arc});
+    arc.fall = own.values(2);
+    arc.fall_sd = noise * std::sqrt(own.covariance(2, 2));
+    falls.push_back(arc.fall);
   }
-  const double usual = median(known);
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    const double off = std::abs(falls[k] - usual);
-    if (off > 0.3 * std::abs(usual) && off > 4.0 * errors[k]) arcs[k].good = false;
+  const double usual = median(falls);
+  for (Arc& arc : arcs) {
+    const double off = std::abs(arc.fall - usual);
+    if (off > 0.3 * std::abs(usual) && off > 4.0 * arc.fall_sd) arc.good = false;
   }
 }
 
@@ -201,8 +199,8 @@ Meeting meeting_of(const Eigen::Matrix<double, 5, 1>& known, double since_first,
 
 class TrackReader {
  public:
-  TrackReader(const ImportRequest& request, bool scaled, double gravity)
-      : request_(request), scaled_(scaled), gravity_(gravity) {}
+  TrackReader(const ImportRequest& request, bool scaled, std::vector<ImportNote> notes)
+      : request_(request), scaled_(scaled), gravity_(gravity_of(request)), out_{{}, notes} {}
 
   void read(const Track& track) {
     const std::vector<Sample>& samples = track.samples;
@@ -239,8 +237,6 @@ class TrackReader {
     out_.notes.push_back({ImportRemark::shared_bounces});
     return out_;
   }
-
-  std::vector<ImportNote>& notes() { return out_.notes; }
 
  private:
   /// @returns false if the parabolas do not intersect near the minimum
@@ -299,8 +295,9 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
       request.scale.empty() ? 1.0 : value_with_unit(request.scale, Dimension::length, "--scale");
   std::vector<Track> tracks;
   std::map<std::string, std::size_t> index;
+  const std::string clock = frames ? "frame" : "time";
   for (std::size_t r = 0; r < table.size(); ++r) {
-    const auto time = table.value(r, frames ? "frame" : "time");
+    const auto time = table.value(r, clock);
     const auto height = table.value(r, pixels ? "pixel" : "height");
     if (!time || !height) {
       table.leave_out(r);
@@ -312,7 +309,7 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
     std::vector<Sample>& samples = tracks[known->second].samples;
     const double seconds = frames ? *time / *request.fps : *time;
     if (!samples.empty() && !(seconds > samples.back().time)) {
-      table.fail(r, frames ? "frame" : "time", fmt::format("a time of {:g} s", seconds),
+      table.fail(r, clock, fmt::format("a time of {:g} s", seconds),
                  "the times of one ball have to ascend",
                  "name the column that tells balls or launches apart: --map series=COLUMN");
     }
@@ -348,8 +345,7 @@ ImportedPoints read_track(const ImportRequest& request) {
                      "leave it out, or name the column with --map pixel=COLUMN");
   }
   const std::vector<Track> tracks = read_tracks(table, request);
-  TrackReader reader(request, table.has("height") || !request.scale.empty(), gravity_of(request));
-  reader.notes() = table.notes();
+  TrackReader reader(request, table.has("height") || !request.scale.empty(), table.notes());
   for (const Track& track : tracks) reader.read(track);
   return reader.result();
 }

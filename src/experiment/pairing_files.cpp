@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/statistics.hpp"
 #include "core/units.hpp"
@@ -20,9 +21,8 @@ std::size_t sturges_bins(std::size_t n) {
   return static_cast<std::size_t>(std::ceil(1.0 + std::log2(static_cast<double>(n)) - 1e-9));
 }
 
-Histogram filled(const std::vector<double>& values, std::size_t bins, HistogramRule rule) {
+Histogram filled(const std::vector<double>& values, std::size_t bins) {
   Histogram histogram;
-  histogram.rule = rule;
   if (values.empty()) return histogram;
   const auto [lowest, highest] = std::ranges::minmax_element(values);
   histogram.lower = *lowest;
@@ -43,8 +43,7 @@ Histogram filled(const std::vector<double>& values, std::size_t bins, HistogramR
 }  // namespace
 
 Histogram sturges(const std::vector<double>& values) {
-  return filled(values, sturges_bins(std::max<std::size_t>(values.size(), 1)),
-                HistogramRule::sturges);
+  return filled(values, sturges_bins(std::max<std::size_t>(values.size(), 1)));
 }
 
 Histogram freedman_diaconis(const std::vector<double>& values) {
@@ -59,7 +58,7 @@ Histogram freedman_diaconis(const std::vector<double>& values) {
       bins = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(most_bins)));
     }
   }
-  return filled(values, bins, HistogramRule::freedman_diaconis);
+  return filled(values, bins);
 }
 namespace {
 
@@ -67,10 +66,12 @@ std::string known(double value) { return value > 0.0 ? fmt::format("{:.4g}", val
 
 std::string bins_csv(const std::vector<double>& values, double unit) {
   std::string out = "rule,lower,upper,middle,count,share\n";
-  for (const Histogram& histogram : {sturges(values), freedman_diaconis(values)}) {
+  for (const auto& [rule, histogram] :
+       {std::pair{"sturges", sturges(values)},
+        std::pair{"freedman-diaconis", freedman_diaconis(values)}}) {
     for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
       out += fmt::format(
-          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", name_of(histogram.rule), histogram.edge(i) / unit,
+          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", rule, histogram.edge(i) / unit,
           histogram.edge(i + 1) / unit, histogram.middle(i) / unit, histogram.counts[i],
           static_cast<double>(histogram.counts[i]) / static_cast<double>(values.size()));
     }

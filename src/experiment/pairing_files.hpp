@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/json.hpp"
-#include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
@@ -17,17 +13,8 @@
 
 namespace recoil {
 
-/// The rule for the number of bins.
-enum class HistogramRule { sturges, freedman_diaconis };
-
-template <>
-struct NamesOf<HistogramRule> {
-  static constexpr std::array<std::string_view, 2> names = {"sturges", "freedman-diaconis"};
-};
-
 /// Counts in bins of equal width from the smallest to the largest value.
 struct Histogram {
-  HistogramRule rule = HistogramRule::sturges;
   double lower = 0.0;
   double width = 1.0;
   std::vector<std::size_t> counts;

@@ -104,7 +104,6 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
   const Stated stated = read_stated(package_text, table.file);
   table.provenance = stated.provenance;
   std::vector<FieldColumn> columns;
-  std::vector<bool> used(header.size(), false);
   for (const Field& field : fields) {
     const std::string name(field.name);
     const auto renamed = format.columns.find(name);
@@ -122,7 +121,6 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
       throw InputError(place, fmt::format("two columns are called {}", quote(wanted)), "",
                        "rename one");
     }
-    used[column.index] = true;
     if (field.dimension != Dimension::text) {
       const bool by_option = format.units.contains(name);
       if (!by_option && !stated.units.contains(wanted)) {
@@ -140,7 +138,8 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
     columns.push_back(column);
   }
   for (std::size_t i = 0; i < header.size(); ++i) {
-    if (!used[i]) table.ignored.push_back(printable(header[i]));
+    const bool used = std::ranges::find(columns, i, &FieldColumn::index) != columns.end();
+    if (!used) table.ignored.push_back(printable(header[i]));
   }
   return columns;
 }
