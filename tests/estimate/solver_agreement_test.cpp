@@ -1,5 +1,6 @@
 // Which solver answers, and how exactly, is no part of an estimate: on a shipped fit of each kind
 // (captures counted, sizes mixed, several sizes).
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 class SolverAgreement : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    const FitSpec spec = load_fit(std::string(RECOIL_SOURCE_DIR) + "/fits/" + GetParam() + ".toml");
+    const FitSpec spec = load_fit(fmt::format("{}/fits/{}.toml", RECOIL_SOURCE_DIR, GetParam()));
     for (const auto& folder : spec.datasets) datasets_.push_back(load_dataset(folder));
     model_ = make_model(spec, datasets_);
     data_ = gather(datasets_);
