@@ -99,8 +99,7 @@ class PointReader {
     constexpr double most_ratio = 1000.0;
     if (stated_sd_.size() < 3) return;
     std::vector<StatedSd> sorted = stated_sd_;
-    std::ranges::sort(
-        sorted, [](const StatedSd& a, const StatedSd& b) { return a.of_impact < b.of_impact; });
+    std::ranges::sort(sorted, {}, &StatedSd::of_impact);
     const double middle = sorted[sorted.size() / 2].of_impact;
     if (!(sorted.front().of_impact * most_ratio < middle)) return;
     throw InputError(sorted.front().where,

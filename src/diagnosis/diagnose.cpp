@@ -25,6 +25,22 @@
 #include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
+
+/// The data of one diagnosis and the base model fitted to them. `base` refers to the other members.
+struct DiagnosedData {
+  DiagnosedData(const FitSpec& stated, std::vector<Dataset> points, const FitResult& fitted,
+                const DiagnosisOptions& given)
+      : spec(stated),
+        datasets(std::move(points)),
+        options(given),
+        base(search_base(spec, datasets, fitted, options)) {}
+
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  DiagnosisOptions options;
+  SearchBase base;
+};
+
 namespace {
 
 // With one size, only the shape of one curve gives evidence.
@@ -238,7 +254,7 @@ ExtendedModel extended_by(const CandidateResult& cause, const SearchBase& base,
 /// be better than a single cause by `margin`. Compared with a pair they may be worse by 2 ln N,
 /// which is about what chance gives the best of N independent pairs. Errors of readings of a scale
 /// always exist, so they need only be as close as a rival.
-bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
+bool errors_fit_better(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
   const bool pair = best.candidate.added.size() > 1;
   const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : margin;
   return std::ranges::any_of(diagnosis.unstated, [&](const UnstatedErrors& errors) {
@@ -248,14 +264,14 @@ bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, 
 }
 
 /// Does the best single candidate gain more than chance explains?
-bool more_than_chance(const Diagnosis& diagnosis) {
+bool gains_more_than_chance(const Diagnosis& diagnosis) {
   return !diagnosis.candidates.empty() &&
          diagnosis.candidates.front().p_value <= diagnosis.options.chance;
 }
 
 /// Is it set aside only for an implausible value, or because an unknown law of size, or rounding,
 /// has the same effect?
-bool cannot_be_told(const CandidateResult& c) {
+bool only_resembles(const CandidateResult& c) {
   return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
          c.set_aside == SetAside::batch_is_size || c.set_aside == SetAside::within_a_step;
 }
@@ -297,21 +313,23 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
 
 /// Is there a plausible cause that fits at least as well as `impossible`, although it is set aside
 /// for another reason?
-bool passes_over(const std::vector<CandidateResult>& candidates, const CandidateResult& impossible,
-                 double chance) {
+bool plausible_cause_fits_as_well(const std::vector<CandidateResult>& candidates,
+                                  const CandidateResult& impossible, double chance) {
   return std::ranges::any_of(candidates, [&](const CandidateResult& c) {
-    return c.plausible && c.kind != MechanismKind::description && !cannot_be_told(c) &&
+    return c.plausible && c.kind != MechanismKind::description && !only_resembles(c) &&
            c.p_value <= chance && c.delta_aicc <= impossible.delta_aicc;
   });
 }
 
-/// The ids of the candidates for which `cannot_be_told` holds and that fit as well as the best of
-/// these.
-std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
+/// The ids of the `candidates`, the best first, for which `holds` and that cannot be distinguished
+/// from the best of these.
+template <class Holds>
+std::vector<std::string> best_where(const Holds& holds,
+                                    const std::vector<CandidateResult>& candidates, double margin) {
   std::vector<std::string> ids;
   double best = INFINITY;
   for (const CandidateResult& c : candidates) {
-    if (!cannot_be_told(c)) continue;
+    if (!holds(c)) continue;
     best = std::min(best, c.delta_aicc);
     if (c.delta_aicc <= best + margin) ids.push_back(c.candidate.added.front());
   }
@@ -346,24 +364,25 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
   judge(base, diagnosis.candidates, margin, folds);
   diagnosis.unstated = unstated_errors(base);
-  const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
+  const auto impossible = std::ranges::find_if(diagnosis.candidates, only_resembles);
   const bool has_impossible = impossible != diagnosis.candidates.end();
-  const auto is_outshone = [&](const std::vector<const CandidateResult*>& found) {
-    return has_impossible && !found.empty() &&
-           impossible_fits_better(*found.front(), *impossible, margin, margin_in_pairs);
+  const auto nothing_explains = [&](const std::vector<const CandidateResult*>& found) {
+    return found.empty() || (has_impossible && impossible_fits_better(*found.front(), *impossible,
+                                                                      margin, margin_in_pairs));
   };
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
-  if ((found.empty() || is_outshone(found)) && more_than_chance(diagnosis)) {
+  if (nothing_explains(found) && gains_more_than_chance(diagnosis)) {
     found = explanations_by_pairs(base, folds, margin_in_pairs, one_size, diagnosis);
   }
-  if (found.empty() || is_outshone(found)) {
-    if (!has_impossible || passes_over(diagnosis.candidates, *impossible, options.chance)) {
+  if (nothing_explains(found)) {
+    if (!has_impossible ||
+        plausible_cause_fits_as_well(diagnosis.candidates, *impossible, options.chance)) {
       return Unexplained{};
     }
-    return Resembles{resembling(diagnosis.candidates, margin)};
+    return Resembles{best_where(only_resembles, diagnosis.candidates, margin)};
   }
   const CandidateResult& best = *found.front();
-  if (outdone_by_errors(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
+  if (errors_fit_better(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
   ExtendedModel extended = extended_by(best, base, base_intervals);
   if (found.size() == 1 && !one_size) return CauseNamed{std::move(extended)};
   NotSeparable answer = several(found, one_size);
@@ -398,14 +417,10 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   if (found.p_value > base.options.level) return found;
   std::vector<CandidateResult> candidates = try_singles(base);
   judge(base, candidates, INFINITY, {});
-  double best = INFINITY;
-  for (const CandidateResult& c : candidates) {
-    if (!c.near_plausible || !may_be_a_cause(c) || !(c.delta_aicc < 0.0)) continue;
-    best = std::min(best, c.delta_aicc);
-    if (c.delta_aicc <= best + base.options.margin) {
-      found.listed.push_back(c.candidate.added.front());
-    }
-  }
+  const auto possible = [](const CandidateResult& c) {
+    return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
+  };
+  found.listed = best_where(possible, candidates, base.options.margin);
   return found;
 }
 
@@ -441,25 +456,6 @@ FitResult usable(const FitSpec& spec, FitResult fitted) {
 FitResult usable_fit(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   return usable(spec, fit(make_model(spec, datasets), gather(datasets, spec.noise)));
 }
-
-}  // namespace
-
-/// The data of one diagnosis and the base model fitted to them. `base` refers to the other members.
-struct DiagnosedData {
-  DiagnosedData(const FitSpec& stated, std::vector<Dataset> points, const FitResult& fitted,
-                const DiagnosisOptions& given)
-      : spec(stated),
-        datasets(std::move(points)),
-        options(given),
-        base(search_base(spec, datasets, fitted, options)) {}
-
-  FitSpec spec;
-  std::vector<Dataset> datasets;
-  DiagnosisOptions options;
-  SearchBase base;
-};
-
-namespace {
 
 /// @throws ComputationError if the fit cannot be repeated from its own result
 std::unique_ptr<DiagnosedData> all_points(const FitSpec& spec, const std::vector<Dataset>& datasets,

@@ -144,13 +144,12 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
   if (!here || !there) return found;
   const Eigen::Index rows = here->slopes.rows();
   const Eigen::Index p = here->parameters;
-  const auto without_possible = [&](const auto& of_all) {
-    std::decay_t<decltype(of_all)> rest(rows - g, of_all.cols());
-    rest << of_all.topRows(n), of_all.bottomRows(rows - n - g);
-    return rest;
-  };
-  Eigen::MatrixXd known = without_possible(here->slopes);
-  const Eigen::VectorXd residuals = without_possible(here->residuals);
+  std::vector<Eigen::Index> measured;  // and constants
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    if (i < n || i >= n + g) measured.push_back(i);
+  }
+  Eigen::MatrixXd known = here->slopes(measured, Eigen::all);
+  const Eigen::VectorXd residuals = here->residuals(measured);
   Eigen::MatrixXd asked = there->slopes.middleRows(n, g);
   // Columns of unit length: the units of the parameters differ by twenty orders of magnitude.
   for (Eigen::Index k = 0; k < p; ++k) {

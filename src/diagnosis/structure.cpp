@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -172,11 +173,8 @@ void StructureStatistics::add_local_functions(const Observations& data) {
   for (std::size_t i = 0; i < n; ++i) {
     if (used_[i]) order.push_back(i);
   }
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    const Observation& x = data.points[a];
-    const Observation& y = data.points[b];
-    return std::tie(x.dataset, x.diameter, x.velocity) <
-           std::tie(y.dataset, y.diameter, y.velocity);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return std::pair(data.points[i].dataset, data.points[i].diameter);
   });
   std::vector<std::vector<std::size_t>> groups;
   for (const std::size_t i : order) {
@@ -189,9 +187,7 @@ void StructureStatistics::add_local_functions(const Observations& data) {
   }
   Column near_capture(n, 0.0);
   for (std::vector<std::size_t>& run : groups) {
-    std::ranges::stable_sort(run, [&](std::size_t a, std::size_t b) {
-      return data.points[a].velocity < data.points[b].velocity;
-    });
+    std::ranges::stable_sort(run, {}, [&](std::size_t i) { return data.points[i].velocity; });
     std::vector<std::vector<std::size_t>>& velocities = runs_.emplace_back();
     for (std::size_t k = 0; k < run.size(); ++k) {
       const bool same = k > 0 && data.points[run[k]].velocity == data.points[run[k - 1]].velocity;
@@ -201,22 +197,16 @@ void StructureStatistics::add_local_functions(const Observations& data) {
     std::vector<double> log_velocity;
     for (const std::size_t i : run) log_velocity.push_back(std::log(data.points[i].velocity));
     const std::vector<double> unit = onto_unit(log_velocity);
-    std::vector<Column> local;
-    for (int degree = 0; degree <= 2 && degree < static_cast<int>(run.size()); ++degree) {
+    // The functions of a family are orthogonal to each other (groups have no common points and are
+    // coupled only through the model).
+    const std::array families = {&size_, &trend_, &curvature_};
+    for (std::size_t degree = 0; degree < std::min(families.size(), run.size()); ++degree) {
       Column column(n, 0.0);
-      for (std::size_t k = 0; k < run.size(); ++k) {
-        column[run[k]] = legendre(unit[k], 2)[static_cast<std::size_t>(degree)];
-      }
-      local.push_back(std::move(column));
+      for (std::size_t k = 0; k < run.size(); ++k) column[run[k]] = legendre(unit[k], 2)[degree];
+      take(std::move(column), *families[degree]);
     }
     for (std::size_t k = 0; k < run.size(); ++k) {
       near_capture[run[k]] = std::exp(2.0 * (log_velocity.front() - log_velocity[k]));
-    }
-    // The functions of a family are orthogonal to each other (groups have no common points and are
-    // coupled only through the model).
-    const std::vector<std::vector<Column>*> families = {&size_, &trend_, &curvature_};
-    for (std::size_t degree = 0; degree < local.size(); ++degree) {
-      take(std::move(local[degree]), *families[degree]);
     }
   }
   take(std::move(near_capture), capture_);

@@ -67,7 +67,7 @@ MechanismKind kind_of(const std::vector<std::string>& ids) {
 }
 
 /// See `CandidateResult::remaining_part`.
-double part_left(const SearchBase& base, const CandidateResult& candidate) {
+double remaining_part_of(const SearchBase& base, const CandidateResult& candidate) {
   if (!base.fitted.data.noise.sd_stated) return 1.0;  // the size of the misfit is unknown
   const auto n = static_cast<double>(base.fitted.data.points.size());
   const double before = base.refit.chi2 - (n - base.candidate.free_count);
@@ -104,7 +104,7 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
 }
 
 /// Can the mechanism act differently in different series?
-bool knows_series(const Mechanism& mechanism) {
+bool can_differ_between_series(const Mechanism& mechanism) {
   const auto& parameters = mechanism.info.parameters;
   return std::ranges::any_of(
       parameters, [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
@@ -123,12 +123,12 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
   if (!result.refit.usable) return result;
   result.delta_aicc =
       corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
-  result.remaining_part = part_left(base, result);
+  result.remaining_part = remaining_part_of(base, result);
   return result;
 }
 
 /// Sets the p-value of the structure that `result` leaves.
-void find_what_is_left(const SearchBase& base, CandidateResult& result) {
+void find_remaining_p(const SearchBase& base, CandidateResult& result) {
   if (!result.refit.usable) return;
   const Observations& data = base.fitted.data;
   std::vector<double> squares;
@@ -257,7 +257,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
   judge_possible_values(base, result);
-  find_what_is_left(base, result);
+  find_remaining_p(base, result);
   return result;
 }
 
@@ -312,7 +312,7 @@ void look_at(const SearchBase& base, FirstLook& look) {
 }
 
 /// Reads the first look from the kept rows, or computes it.
-void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
+void kept_look(const SearchBase& base, std::size_t k, FirstLook& look) {
   const std::vector<std::string> names = names_of(look);
   look.both = make_candidate(base.spec, base.datasets, names, false, true);
   const auto make = [&] {
@@ -350,7 +350,7 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   Refit refit = apply_laws(look.both, data, std::move(look.refit), base.laws);
   CandidateResult result = examine(base, std::move(look.both), std::move(refit));
   if (follow) try_released(base, result, tries_in_pairs);
-  find_what_is_left(base, result);
+  find_remaining_p(base, result);
   if (!follow) {
     result.set_aside = SetAside::far_behind;
     return result;
@@ -383,20 +383,20 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
   const std::vector<const Mechanism*> added = chain_of(candidate.added);
   const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
   const bool by_series =
-      std::ranges::any_of(added, [](const Mechanism* m) { return knows_series(*m); });
+      std::ranges::any_of(added, [](const Mechanism* m) { return can_differ_between_series(*m); });
   std::set<std::pair<std::size_t, std::size_t>> series;
   std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
-  int says_more = 0;  // points with both rebounds and captures give two values
+  int two_values = 0;  // points with both rebounds and captures give two values
   for (const Observation& point : data.points) {
     series.insert({point.dataset, point.series});
     impacts.insert({point.dataset, by_series ? point.series : 0, point.diameter, point.velocity});
-    if (point.mixed()) ++says_more;
+    if (point.mixed()) ++two_values;
   }
   if (batch && series.size() < 2) return false;
   const auto& moving = base.refit.moving;
   const auto before = static_cast<int>(std::ranges::count(moving, true));
   const int own = candidate.free_count - base.candidate.free_count;
-  const int known = static_cast<int>(impacts.size()) + says_more;
+  const int known = static_cast<int>(impacts.size()) + two_values;
   return known >= before + std::max(own, 1);
 }
 
@@ -443,7 +443,7 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
   }
   Progress progress("pairs of causes", 2 * looks.size());
   parallel_over(looks.size(), base.options.threads, [&](std::size_t k) {
-    look_once(base, k, looks[k]);
+    kept_look(base, k, looks[k]);
     progress.advance();
   });
   const double worth = worth_following(looks);

@@ -99,7 +99,7 @@ Drops read_drop(const ImportTable& table, std::size_t r, const StatedError& drop
   Drops drop;
   drop.height = table.positive(r, "drop_height");
   const double rebound = table.needed(r, "rebound_height");
-  if (rebound < 0.0) table.positive(r, "rebound_height");
+  if (rebound < 0.0) table.positive(r, "rebound_height");  // throws
   drop.series = table.name(r, "series");
   drop.diameter = table.value(r, "diameter");
   drop.line = table.line(r);
@@ -190,10 +190,8 @@ struct Launch {
 /// Sorts the flights by the number of their bounce. @throws InputError if a number appears twice
 void sort_flights(const ImportTable& table, Launch& launch) {
   std::vector<Flight>& flights = launch.flights;
-  std::ranges::stable_sort(flights,
-                           [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
-  const auto twice = std::ranges::adjacent_find(
-      flights, [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
+  std::ranges::stable_sort(flights, {}, &Flight::bounce);
+  const auto twice = std::ranges::adjacent_find(flights, {}, &Flight::bounce);
   if (twice == flights.end()) return;
   table.fail(std::next(twice)->row, "bounce",
              fmt::format("bounce {:g} of launch '{}' appears here and on line {}", twice->bounce,

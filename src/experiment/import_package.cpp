@@ -176,7 +176,7 @@ Json sources_of(const ImportRequest& request, const std::optional<ExistingPackag
 }
 
 /// A column of points.csv.
-struct Output {
+struct PointsColumn {
   Quantity quantity;
   std::string type;
   std::string unit;     ///< empty for counts and texts
@@ -184,7 +184,7 @@ struct Output {
 };
 
 /// The column of a quantity. @param millimetres diameters are in mm, otherwise in um
-Output output_of(Quantity quantity, bool millimetres) {
+PointsColumn column_of(Quantity quantity, bool millimetres) {
   for (const Condition condition : values_of<Condition>()) {
     if (quantity_of(condition) != quantity) continue;
     return {quantity, "number", std::string(info_of(condition).unit)};
@@ -202,12 +202,12 @@ Output output_of(Quantity quantity, bool millimetres) {
   }
 }
 
-std::string cell_of(const ImportedPoint& point, const Output& output) {
-  if (output.quantity == Quantity::series) return csv_cell(point.series);
-  if (output.quantity == Quantity::setting) return csv_cell(point.setting);
-  if (output.quantity == Quantity::launch) return csv_cell(point.launch);
-  const auto value = point.value[output.quantity];
-  return value ? fmt::format("{:.9g}", *value / output.factor) : "";
+std::string cell_of(const ImportedPoint& point, const PointsColumn& column) {
+  if (column.quantity == Quantity::series) return csv_cell(point.series);
+  if (column.quantity == Quantity::setting) return csv_cell(point.setting);
+  if (column.quantity == Quantity::launch) return csv_cell(point.launch);
+  const auto value = point.value[column.quantity];
+  return value ? fmt::format("{:.9g}", *value / column.factor) : "";
 }
 
 }  // namespace
@@ -233,26 +233,26 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
     return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
   });
   const auto any = [&](Quantity quantity) {
-    const Output output = output_of(quantity, millimetres);
+    const PointsColumn column = column_of(quantity, millimetres);
     return std::ranges::any_of(
-        points, [&](const ImportedPoint& point) { return !cell_of(point, output).empty(); });
+        points, [&](const ImportedPoint& point) { return !cell_of(point, column).empty(); });
   };
   PointsText text;
-  std::vector<Output> outputs;
+  std::vector<PointsColumn> columns;
   for (const Quantity quantity : values_of<Quantity>()) {
     const bool always = quantity == Quantity::series ||
                         (quantity == Quantity::restitution && !any(Quantity::rebound_velocity));
     if (!always && !any(quantity)) continue;
-    const Output output = output_of(quantity, millimetres);
-    text.fields.push_back(package_field(to_string(quantity), output.type, output.unit));
-    text.csv += fmt::format("{}{}", outputs.empty() ? "" : ",", name_of(quantity));
-    outputs.push_back(output);
+    const PointsColumn column = column_of(quantity, millimetres);
+    text.fields.push_back(package_field(to_string(quantity), column.type, column.unit));
+    text.csv += fmt::format("{}{}", columns.empty() ? "" : ",", name_of(quantity));
+    columns.push_back(column);
   }
   text.csv += '\n';
   for (const ImportedPoint& point : points) {
-    for (const Output& output : outputs) {
-      if (output.quantity != Quantity::series) text.csv += ',';
-      text.csv += cell_of(point, output);
+    for (const PointsColumn& column : columns) {
+      if (column.quantity != Quantity::series) text.csv += ',';
+      text.csv += cell_of(point, column);
     }
     text.csv += '\n';
   }

@@ -515,8 +515,7 @@ void ImportTable::read_map(const std::string& entry) {
                      fmt::format("--map {} is not of the form quantity=column:unit", quote(entry)),
                      "", fmt::format("quantities are {}", join(names)));
   }
-  const auto quantity =
-      std::ranges::find_if(known_, [&](const ImportQuantity& q) { return q.name == pair->first; });
+  const auto quantity = std::ranges::find(known_, pair->first, &ImportQuantity::name);
   if (quantity == known_.end()) {
     // "velocity" is nearest to velocity_sd but means the needed quantity, incident_velocity.
     const auto meant = std::ranges::find_if(known_, [&](const ImportQuantity& q) {
@@ -668,8 +667,7 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
   const auto [text, error] = value_and_error(cell.text);
   if (!error.empty()) {
     const std::string sd = error_name(quantity);
-    const bool takes =
-        std::ranges::any_of(known_, [&](const ImportQuantity& q) { return q.name == sd; });
+    const bool takes = std::ranges::find(known_, sd, &ImportQuantity::name) != known_.end();
     if (!takes || has(sd)) {
       fail(row, quantity, fmt::format("{} is a value and its error", quote(cell.text)),
            takes ? fmt::format("{} has a column of its own", sd)

@@ -49,8 +49,7 @@ double noise_of(const std::vector<Sample>& samples) {
 /// The minima from which the height rises on both sides, before it falls below the minimum, by more
 /// than six standard deviations of the noise and more than 1 % of the whole range.
 std::vector<std::size_t> impacts_of(const std::vector<Sample>& samples) {
-  const auto [low, high] = std::ranges::minmax_element(
-      samples, [](const Sample& a, const Sample& b) { return a.height < b.height; });
+  const auto [low, high] = std::ranges::minmax_element(samples, {}, &Sample::height);
   const double least = std::max(6.0 * noise_of(samples), 0.01 * (high->height - low->height));
   const auto rises = [&](std::size_t from, int step) {
     const double level = samples[from].height;
@@ -92,8 +91,7 @@ std::vector<Arc> arcs_of(const std::vector<Sample>& samples,
     arc.end = k == impacts.size() ? samples.size() : impacts[k];
     const auto first = samples.begin() + static_cast<std::ptrdiff_t>(arc.begin);
     const auto last = samples.begin() + static_cast<std::ptrdiff_t>(arc.end);
-    const auto top = std::max_element(
-        first, last, [](const Sample& a, const Sample& b) { return a.height < b.height; });
+    const auto top = std::ranges::max_element(first, last, {}, &Sample::height);
     if (k == 0 && first != last) {
       const double drop =
           std::max(6.0 * noise_of(samples), 0.02 * (top->height - std::prev(last)->height));

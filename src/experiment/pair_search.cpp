@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -34,7 +35,7 @@ class Chooser {
     std::vector<std::size_t> order(links_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-      return links_[a].cost < links_[b].cost || (links_[a].cost == links_[b].cost && a < b);
+      return std::tie(links_[a].cost, a) < std::tie(links_[b].cost, b);
     });
     for (const std::size_t i : order) {
       if (by_from_[links_[i].from] == none && by_to_[links_[i].to] == none) take(i);
@@ -155,7 +156,7 @@ LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>
   const std::size_t classes = std::clamp<std::size_t>(x.size() / least, 1, most_classes);
   std::vector<std::size_t> order(x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
+  std::ranges::sort(order, {}, [&](std::size_t i) { return x[i]; });
   for (std::size_t k = 0; k < classes; ++k) {
     const std::size_t begin = k * x.size() / classes;
     const std::size_t end = (k + 1) * x.size() / classes;

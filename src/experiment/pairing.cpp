@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "experiment/flight.hpp"
 #include "experiment/pair_search.hpp"
@@ -48,8 +49,7 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
     ++count.tried;
   }
   std::ranges::stable_sort(mixed, [](const Marked& a, const Marked& b) {
-    return a.passage.series < b.passage.series ||
-           (a.passage.series == b.passage.series && a.passage.time < b.passage.time);
+    return std::tie(a.passage.series, a.passage.time) < std::tie(b.passage.series, b.passage.time);
   });
   std::vector<Passage> stream;
   stream.reserve(mixed.size());
