@@ -91,6 +91,7 @@ details.section > summary h2 { display: inline; border: 0; margin: 0; padding: 0
 .answer > section > h2 { border: 0; margin: .5rem 0; padding: 0; font-size: 1.05rem; }
 .answer > #picture:has(.single) { grid-column: auto; grid-row: span 3; }
 .answer > #capture, .answer > #parameters, .answer > #calibrations { grid-column: auto; }
+.answer > #picture { margin-bottom: .75rem; }
 .answer .wide { margin: .25rem 0 .75rem; }
 footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line);
   color: var(--quiet); font-size: .85rem; }
