@@ -181,6 +181,7 @@ struct Diagnosis {
 };
 
 /// Do all points have about the same diameter, so that the size dependence of an effect is unknown?
+/// @pre there is a point
 bool has_one_size(const Observations& data);
 
 /// Can the points test how e varies with V and d, beyond what the parameters fit?

@@ -17,6 +17,7 @@ Diagnosis answered(DiagnosisAnswer answer) {
   d.answer = std::move(answer);
   d.structure.tests = {{StructureQuestion::scatter, 1.0, 0.5},
                        {StructureQuestion::trend, 1.0, 0.5}};
+  d.base.data.points.resize(1);
   return d;
 }
 
