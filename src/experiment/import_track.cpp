@@ -198,6 +198,7 @@ Meeting meeting_of(const Eigen::Matrix<double, 5, 1>& known, double since_first,
 class TrackReader {
  public:
   TrackReader(const ImportRequest& request, bool scaled, std::vector<ImportNote> notes)
+      // A copy of a few notes. NOLINTNEXTLINE(performance-unnecessary-value-param)
       : request_(request), scaled_(scaled), gravity_(gravity_of(request)), out_{{}, notes} {}
 
   void read(const Track& track) {
