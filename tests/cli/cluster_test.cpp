@@ -34,7 +34,7 @@ TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
     for (const auto& entry : fs::directory_iterator(place.path() / "job")) {
       found.push_back(entry.path().filename().string());
       const std::string text = place.read(fs::path("job") / found.back());
-      // Every placeholder is replaced. The remaining @ belongs to Slurm.
+      // No @NAME@ of the template is left. The remaining @ belongs to Slurm.
       EXPECT_EQ(std::count(text.begin(), text.end(), '@'), found.back() == "array.sbatch" ? 1 : 0)
           << text;
       EXPECT_EQ(run_command({"sh", "-n", found.back()}, place.path() / "job").status, 0) << text;
