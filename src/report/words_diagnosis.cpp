@@ -528,6 +528,10 @@ std::string unexplained_words(const Diagnosis& d) {
         p_words(closest->remaining_p, quick_samples));
   }
   if (!tests_the_curve(d)) return "The points scatter more than their stated standard deviations.";
+  if (!d.structure.smooth && !d.base.data.noise.sd_stated) {
+    return "No cause in the catalogue explains it, alone or in pairs. No standard deviations are "
+           "stated, and errors that points share could leave the same structure.";
+  }
   if (!d.structure.smooth) {
     return "No cause in the catalogue explains it, and it has no pattern in velocity and size: the "
            "points scatter more than their stated standard deviations.";

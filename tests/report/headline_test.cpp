@@ -76,6 +76,21 @@ TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }
 
+TEST(AnswerSentences, SpeakOfStatedErrorsOnlyWhereSomeAreStated) {
+  Diagnosis d = answered(Unexplained{});
+  d.structure.smooth = false;
+  const auto text = [&] {
+    std::string all;
+    for (const std::string& sentence : answer_sentences(d)) all += sentence + " ";
+    return all;
+  };
+  d.base.data.noise.sd_stated = true;
+  EXPECT_THAT(text(), HasSubstr("scatter more than their stated standard deviations"));
+  d.base.data.noise.sd_stated = false;
+  EXPECT_THAT(text(), HasSubstr("No standard deviations are stated"));
+  EXPECT_THAT(text(), testing::Not(HasSubstr("their stated")));
+}
+
 TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
   Diagnosis d = answered(names({"gas_film"}));
   CandidateResult& cause = std::get<CauseNamed>(d.answer).extended.cause;
