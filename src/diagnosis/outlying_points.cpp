@@ -9,7 +9,7 @@
 
 #include "core/numerics.hpp"
 #include "diagnosis/search.hpp"
-#include "estimate/fit.hpp"
+#include "estimate/odd_point.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {

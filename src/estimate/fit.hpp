@@ -8,31 +8,9 @@
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/start_search.hpp"
 
 namespace recoil {
-
-/// How one of several starts ended.
-enum class StartOutcome {
-  best,           ///< reached the smallest chi2
-  same,           ///< reached the same parameters as the best
-  tie,            ///< reached the same chi2 at other parameters, see StartSummary::differing
-  worse,          ///< ended in a worse local minimum
-  flat,           ///< ended where the points do not depend on a parameter
-  not_converged,  ///< failed
-};
-
-/// The end of one of several starts.
-struct StartSummary {
-  std::vector<double> start;
-  std::vector<double> end;
-  double chi2 = 0.0;
-  DescentEnd ending = DescentEnd::no_answer;
-  std::string message;  ///< message of the minimiser
-  StartOutcome outcome = StartOutcome::not_converged;
-  std::vector<std::size_t> differing = {};  ///< for a tie: the slots whose values differ
-
-  bool converged() const { return ending == DescentEnd::minimum || ending == DescentEnd::valley; }
-};
 
 /// How the scatter of the points compares with their stated standard deviations.
 enum class NoiseVerdict {
@@ -129,49 +107,5 @@ std::vector<std::size_t> held_back_dampings(const FitResult& fitted);
 /// `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
                         const Observations& data, const std::vector<std::size_t>& subset = {});
-
-/// The end of a start from which the fit to all points continues.
-struct StartLead {
-  std::size_t start = 0;  ///< index of the start
-  LeastSquaresResult run;
-};
-
-/// Result of the descents from several starts.
-struct StartSearch {
-  std::vector<StartSummary> starts;
-  std::size_t points = 0;  ///< number of points used
-  bool sampled = false;    ///< true: a subset of more than 500
-  /// The best run first. If the points are a subset, also every run that ended at other parameters
-  /// with a sum of squares that the subset cannot distinguish from the smallest. Empty if no
-  /// descent ended.
-  std::vector<StartLead> leads;
-  long handovers = 0;  ///< impacts that the fast solver handed to the reference
-};
-
-/// Descends from `first` and, with `several`, from other dampings and from the starts that the
-/// catalogue of mechanisms lists.
-StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
-                               const std::vector<double>& first, bool several,
-                               LeastSquaresOptions options);
-
-/// A point whose removal makes the model fit the others.
-struct OddPoint {
-  std::size_t index = 0;  ///< index of the observation
-  /// Its deviation from the prediction of the others, in standard deviations.
-  double residual = 0.0;
-  FitResult without;  ///< the fit to the others
-};
-
-/// Finds the point whose removal makes a rejected fit acceptable. With residual r and leverage h,
-/// its deviation from what the others predict is
-/// - r / sqrt(1 - h) if standard deviations are stated,
-/// - else the externally studentised r / (s_(i) sqrt(1 - h)) (Cook & Weisberg 1982, Residuals and
-///   Influence in Regression, section 2.2).
-///
-/// Nullopt unless more than one degree of freedom is left without the point and the largest
-/// deviation among all points is significant (Bonferroni), at 5 % if standard deviations are
-/// stated, else at 1 %. If they are stated, the fit to all points must also be rejected at 5 % and
-/// the fit to the others not.
-std::optional<OddPoint> odd_point(const FitResult& fitted);
 
 }  // namespace recoil

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
+#include "estimate/odd_point.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/budget.hpp"
 #include "uncertainty/capture_estimate.hpp"

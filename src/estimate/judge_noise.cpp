@@ -1,0 +1,76 @@
+#include "estimate/judge_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "estimate/reweighting.hpp"
+#include "estimate/shared_settings.hpp"
+
+namespace recoil {
+namespace {
+
+// If the p-value of chi-squared under the stated noise is below this, every interval is widened.
+constexpr double misfit_level = 0.01;
+// Below this p-value the fit is called doubtful; chance may explain it.
+constexpr double doubtful_level = 0.05;
+
+}  // namespace
+
+void judge_noise(FitResult& result, const Misfit& misfit) {
+  result.dof = misfit.dof;
+  result.p_value = misfit.p_value;
+  const auto verdict = [&] {
+    if (misfit.dof <= 0) return NoiseVerdict::unchecked;
+    if (!result.data.noise.sd_stated) return NoiseVerdict::estimated;
+    if (misfit.p_value < misfit_level) return NoiseVerdict::exceeded;
+    return misfit.p_value < doubtful_level ? NoiseVerdict::doubtful : NoiseVerdict::explained;
+  };
+  result.noise_verdict = verdict();
+  if (result.noise_verdict == NoiseVerdict::estimated ||
+      result.noise_verdict == NoiseVerdict::exceeded) {
+    result.noise_scale = misfit.scale();
+  }
+  const double least = std::max(result.data.noise.scale, result.data.noise.rounding_sd);
+  const bool scatters = least * result.noise_scale > least_noise;
+  if (result.noise_verdict == NoiseVerdict::estimated) {
+    result.noise_scale = std::max(
+        result.noise_scale, std::min(1.0, result.data.noise.rounding_sd / result.data.noise.scale));
+    // The degrees of freedom by which the points determine the constants do not determine the
+    // noise.
+    result.dof -= static_cast<int>(std::lround(misfit.learned));
+  }
+  Noise& noise = result.data.noise;
+  noise.known = result.data.noise.sd_stated || (result.dof > 0 && scatters);
+  if (!noise.known) {
+    result.noise_scale = 1.0;
+    result.noise_verdict = NoiseVerdict::unchecked;
+  }
+  const auto known_by = [&](int dof) {
+    if (dof > 0 && (result.quantile_dof == 0 || dof < result.quantile_dof)) {
+      result.quantile_dof = dof;
+    }
+  };
+  if (!result.data.noise.sd_stated) known_by(result.dof);
+  if (noise.event_spread > 0.0) {
+    // Degrees of freedom of the spread of the impacts: those in the range where some spheres stick
+    // count, and single impacts in proportion to the part of their variance that comes from the
+    // spread (Satterthwaite 1946, Biometrics Bull. 2, 110).
+    const std::vector<bool> among = among_captures(result.data.points);
+    double impacts = 0.0;
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      const Observation& point = result.data.points[i];
+      if (point.events > 1 || point.censored) {
+        impacts += among[i] ? point.events : 0;
+      } else if (point.weights.scatter > 0.0) {
+        impacts += std::pow(1.0 - std::pow(point.weights.sd / point.weights.mean_sd, 2), 2);
+      }
+    }
+    known_by(std::max(1, static_cast<int>(impacts) - 1));
+  }
+  if (result.data.noise.setting_sd_estimated) {
+    known_by(spare_settings(result.data, result.model.free_count()));
+  }
+}
+
+}  // namespace recoil
