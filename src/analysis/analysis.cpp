@@ -44,11 +44,11 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
 }
 
 void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data) {
-  const std::optional<SchemeObstacle> obstacle = scheme_obstacle(scheme, data);
+  const std::optional<std::string> obstacle = scheme_obstacle(scheme, data);
   if (!obstacle) return;
   throw InputError({spec.file.string()},
-                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)),
-                   obstacle_words(*obstacle), "scheme = \"auto\" chooses one that can");
+                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)), *obstacle,
+                   "scheme = \"auto\" chooses one that can");
 }
 
 std::vector<Dataset> load_datasets(const FitSpec& spec) {

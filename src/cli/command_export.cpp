@@ -81,7 +81,8 @@ Fitted read_fitted_values(FitInputs inputs, const ExportOptions& options) {
   out.theta = out.model.initial();
   out.source.parameters = "from " + options.parameters;
   set_values(out, [&](std::size_t s) { return values[s].std_error; });
-  out.source.rmse = root_mean_square(out.model, out.theta, gather(inputs.datasets, inputs.spec));
+  const Observations data = gather(inputs.datasets, inputs.spec);
+  out.source.rmse = root_mean_square(out.model, out.theta, data, first_weights(data));
   out.datasets = std::move(inputs.datasets);
   return out;
 }

@@ -212,7 +212,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
 }
 
 int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates) {
-  if (!fitted.data.noise.known) return 0;
+  if (!fitted.weights.noise.known) return 0;
   if (spec.uncertainty.own_design) return *spec.uncertainty.own_design;
   if (replicates == 0 || fitted.noise_verdict == NoiseVerdict::exceeded) return 0;
   constexpr int usual = 200;
@@ -220,7 +220,7 @@ int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replic
   // Seconds on one core per point of a data set; measured, see docs/speed.md.
   const bool mixtures = !fitted.model.chain.empty() || averages_over_sizes(fitted.model);
   double seconds = fitted.data.weights_depend_on_fit() ? 2.5e-3 : 5e-4;
-  if (fitted.data.noise.event_spread > 0.0) seconds = 5e-3;
+  if (fitted.weights.noise.event_spread > 0.0) seconds = 5e-3;
   if (mixtures || fitted.model.adhesion != AdhesionLaw::ring) seconds *= 10.0;
   const double cost = usual * seconds * static_cast<double>(fitted.data.points.size());
   return cost < most_seconds ? usual : 0;

@@ -13,7 +13,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -21,6 +21,7 @@ namespace {
 /// A point of the design, to be simulated at the estimate.
 struct DesignPoint {
   double restitution = 0.0;  ///< e of the typical impact [1]
+  double velocity = 0.0;     ///< its true velocity [m/s]
   double sd = 0.0;           ///< sd of the mean e, stated or estimated [1]
   double own_sd = 0.0;       ///< the part of sd that is not due to differences between impacts [1]
   std::shared_ptr<const TrueCurve> curve;      ///< set if impacts differ and captures were counted
@@ -42,29 +43,72 @@ double mean_variance(int events, const std::function<double()>& restitution) {
   return sum / points;
 }
 
+/// What the points really were, and what was misread.
+struct TrueErrors {
+  std::vector<PointConditions> spheres;  ///< with the true V and d of every point
+  std::vector<double> of_restitution;    ///< errors of e beside the scatter of the points [1]
+};
+
+/// The points as stated, without errors.
+TrueErrors without_errors(const FitResult& fitted) {
+  return {fitted.data.conditions(), std::vector<double>(fitted.data.points.size(), 0.0)};
+}
+
+/// Draws the errors of all sources: an error of V or d moves the sphere, so that its impact is
+/// simulated where it really was; what else the error changes is an error of e.
+TrueErrors draw_errors(const FitResult& fitted, RandomStream& random) {
+  TrueErrors errors = without_errors(fitted);
+  for (const ErrorSource* source : fitted.data.sources) {
+    std::map<std::size_t, double> drawn;  // in standard deviations
+    for (std::size_t i = 0; i < errors.spheres.size(); ++i) {
+      const Observation& point = fitted.data.points[i];
+      std::vector<ErrorPart> parts = source->parts(point);
+      if (source->shared == SharedBy::nobody) parts = {{i}};
+      double z = 0.0;
+      for (const ErrorPart& part : parts) {
+        const auto [place, is_new] = drawn.try_emplace(part.draw, 0.0);
+        if (is_new) place->second = random.normal();
+        z += place->second * part.factor;
+      }
+      const InputShift by = source->shift(point);
+      errors.spheres[i].velocity *= std::exp(by.velocity * z);
+      errors.spheres[i].diameter *= std::exp(by.diameter * z);
+      const double square = fitted.prediction_squared[i];
+      if (!(square > 0.0)) continue;
+      const double direct = source->effect(point, {square, 0.0, 0.0}, fitted.weights.noise);
+      errors.of_restitution[i] += z * direct / (2.0 * std::sqrt(square));
+    }
+  }
+  return errors;
+}
+
 std::vector<DesignPoint> design_points(const FitResult& fitted,
                                        const std::vector<Dataset>& datasets,
                                        const TrueImpacts& impacts, std::span<const double> theta,
+                                       const std::vector<PointConditions>& spheres,
                                        RandomStream& random) {
-  const double spread = fitted.data.noise.event_spread;
+  const double spread = fitted.weights.noise.event_spread;
   const double reach = std::exp(6.0 * spread);
   std::map<std::pair<std::size_t, double>, double> fastest;
-  for (const Observation& point : fitted.data.points) {
-    double& most = fastest[{point.dataset, point.diameter}];
-    most = std::max(most, point.velocity * reach);
+  for (const PointConditions& sphere : spheres) {
+    double& most = fastest[{sphere.dataset, sphere.diameter}];
+    most = std::max(most, sphere.velocity * reach);
   }
   std::map<std::pair<std::size_t, double>, std::shared_ptr<const TrueCurve>> curves;
   std::vector<DesignPoint> design;
-  for (const Observation& point : fitted.data.points) {
-    PointConditions sphere = point.conditions();
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
+    const double sd = fitted.weights.points[i].sd;
+    PointConditions sphere = spheres[i];
+    const double velocity_here = sphere.velocity;
+    const double diameter_here = sphere.diameter;
     const auto at_velocity = [&](double velocity) {
       sphere.velocity = velocity;
       return impacts.restitution(theta, sphere);
     };
-    DesignPoint made{at_velocity(point.velocity), point.weights.sd, point.weights.sd, nullptr,
-                     nullptr};
+    DesignPoint made{at_velocity(velocity_here), velocity_here, sd, sd, nullptr, nullptr};
     const auto without = [&](double variance) {
-      return std::sqrt(std::max(0.0, point.weights.sd * point.weights.sd - variance));
+      return std::sqrt(std::max(0.0, sd * sd - variance));
     };
     if (averages_over_sizes(fitted.model, point.dataset)) {
       const auto of_diameter = [&](double diameter) {
@@ -72,19 +116,19 @@ std::vector<DesignPoint> design_points(const FitResult& fitted,
         return impacts.restitution(theta, sphere);
       };
       made.mixture = std::make_shared<const TrueMixture>(
-          of_diameter, *datasets[point.dataset].mixed_sizes, point.diameter, point.velocity);
+          of_diameter, *datasets[point.dataset].mixed_sizes, diameter_here, velocity_here);
       made.own_sd =
           without(mean_variance(point.events, [&] { return made.mixture->draw(random); }));
     } else if (spread > 0.0 && point.counted) {
-      auto& curve = curves[{point.dataset, point.diameter}];
+      auto& curve = curves[{point.dataset, diameter_here}];
       if (!curve) {
         curve = std::make_shared<const TrueCurve>(
-            at_velocity, impacts.capture_velocity(theta, point.dataset, point.diameter),
-            fastest[{point.dataset, point.diameter}]);
+            at_velocity, impacts.capture_velocity(theta, point.dataset, diameter_here),
+            fastest[{point.dataset, diameter_here}]);
       }
       made.curve = curve;
       made.own_sd = without(mean_variance(point.events, [&] {
-        return (*curve)(differing_velocity(point.velocity, spread, random));
+        return (*curve)(differing_velocity(velocity_here, spread, random));
       }));
     }
     design.push_back(std::move(made));
@@ -113,9 +157,8 @@ void simulate_point(const DesignPoint& design, double spread, bool other_truth, 
     return;
   }
   const CountedImpacts found = count_impacts(point.events, [&] {
-    return design.mixture
-               ? design.mixture->draw(random)
-               : (*design.curve)(differing_velocity(point.incident_velocity, spread, random));
+    return design.mixture ? design.mixture->draw(random)
+                          : (*design.curve)(differing_velocity(design.velocity, spread, random));
   });
   const bool stated = point.restitution_sd.has_value();
   point.captured = found.captured;
@@ -187,35 +230,34 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
   truth.capture = true_captures(impacts, fitted.theta, datasets);
   RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});
   const auto known = std::make_shared<const std::vector<DesignPoint>>(
-      design_points(fitted, datasets, impacts, fitted.theta, random));
+      design_points(fitted, datasets, impacts, fitted.theta, fitted.data.conditions(), random));
   truth.simulate = [datasets, seed, known, impacts, fit = fitted](std::uint64_t index) {
     std::vector<DesignPoint> design = *known;
-    const bool other_truth = !fit.model.constants.empty();
+    RandomStream of_sources(seed, RandomPurpose::settings, index);
+    const TrueErrors errors = draw_errors(fit, of_sources);
+    const bool other_truth = !fit.model.constants.empty() || !fit.data.sources.empty();
     if (other_truth) {
       const auto theta = with_drawn_constants(fit.model, fit.theta, seed, index);
       RandomStream own(seed, RandomPurpose::coverage, ~index);
-      design = design_points(fit, datasets, impacts, theta, own);
+      design = design_points(fit, datasets, impacts, theta, errors.spheres, own);
     }
-    auto next = design.begin();
     RandomStream noise(seed, RandomPurpose::coverage, index);
-    RandomStream of_settings(seed, RandomPurpose::settings, index);
-    const std::vector<double> shared = draw_setting_errors(fit.data, fit.noise_scale, of_settings);
-    auto off = shared.begin();
     std::vector<Dataset> made = datasets;
+    std::size_t i = 0;
     for (Dataset& dataset : made) {
       for (ImpactPoint& point : dataset.points) {
-        DesignPoint designed = *next++;
-        const Observation& observed =
-            fit.data.points[static_cast<std::size_t>(off - shared.begin())];
+        DesignPoint& designed = design[i];
         const auto stated = point.restitution_sd;
-        designed.sd = own_noise_scale(observed, designed.sd);
-        simulate_point(designed, fit.data.noise.event_spread, other_truth, fit.data.noise.sd_stated,
-                       noise, point);
-        if (observed.launch != Observation::no_launch) point.restitution_sd = stated;
-        const double error = *off++;
+        const double own_sd = own_noise_scale(fit.data, i, designed.sd);
+        const bool all_shared = own_sd < designed.sd;
+        designed.sd = own_sd;
+        simulate_point(designed, fit.weights.noise.event_spread, other_truth,
+                       fit.data.noise.sd_stated, noise, point);
+        if (all_shared) point.restitution_sd = stated;
         if (!point.all_captured() && !point.counts_only) {
-          point.restitution = std::max(0.0, point.restitution + error);
+          point.restitution = std::max(0.0, point.restitution + errors.of_restitution[i]);
         }
+        ++i;
       }
     }
     return made;

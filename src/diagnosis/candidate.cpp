@@ -275,17 +275,14 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
   return carried;
 }
 
-Refit refit_candidate(const Candidate& candidate, const Observations& data,
+Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy) {
   // Models are compared under the stated errors of the points and of the constants.
-  Observations stated;
-  if (data.constants_weight != 1.0) {
-    stated = data;
-    stated.constants_weight = 1.0;
-  }
-  const LeastSquaresProblem problem = whitened(
-      impact_problem(candidate.model, data.constants_weight != 1.0 ? stated : data), *discrepancy);
+  Weights stated = weights;
+  stated.noise.constants_weight = 1.0;
+  const LeastSquaresProblem problem =
+      whitened(impact_problem(candidate.model, data, stated), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());
   const auto most = static_cast<std::size_t>(tries);
   std::vector<std::vector<double>> starts = {first};

@@ -92,7 +92,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 /// @param near theta of the candidate, for example with the base parameters of a fit without the
 ///   mechanisms
 /// @param discrepancy the errors that the residuals share
-Refit refit_candidate(const Candidate& candidate, const Observations& data,
+Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy = nothing_shared());
 

@@ -48,7 +48,8 @@ constexpr double margin_at_one_size = 20.0;
 
 /// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {
-  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, base.noise)
+  return quick_structure(base.fitted.data, base.fitted.weights, refit,
+                         base.fitted.prediction_squared, base.noise)
       .p_value;
 }
 
@@ -102,7 +103,7 @@ std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
 /// Step 1: tests whether the base model leaves structure.
 /// @return the residuals of the calibrating data sets [points x data sets]
 Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
-  const StructureStatistics statistics(base.fitted.data, base.refit,
+  const StructureStatistics statistics(base.fitted.data, base.fitted.weights, base.refit,
                                        base.fitted.prediction_squared);
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
   std::vector<std::optional<std::vector<double>>> answers(count);

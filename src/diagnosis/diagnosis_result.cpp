@@ -72,7 +72,8 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
     double weights = 0.0, weighted = 0.0;
     for (const std::size_t i : members) {
       const Observation& point = points[i];
-      const double expected = expected_restitution(point, fitted.prediction_squared[i]);
+      const PointWeights& own = fitted.weights.points[i];
+      const double expected = expected_restitution(point, own, fitted.prediction_squared[i]);
       const double measured = point.counts_only() ? expected
                               : point.censored    ? 0.0
                                                   : point.restitution;
@@ -82,9 +83,9 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
       cell.restitution += miss / cell.points;
       cell.energy += 0.5 * mass * point.velocity * point.velocity *
                      (measured * measured - expected * expected) / cell.points;
-      if (point.censored || !(point.weights.sd > 0.0)) continue;
-      weights += 1.0 / (point.weights.sd * point.weights.sd);
-      weighted += miss / (point.weights.sd * point.weights.sd);
+      if (point.censored || !(own.sd > 0.0)) continue;
+      weights += 1.0 / (own.sd * own.sd);
+      weighted += miss / (own.sd * own.sd);
     }
     if (weights > 0.0) cell.standardised = weighted / std::sqrt(weights);
     map.push_back(cell);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -85,10 +85,10 @@ void Discrepancy::whiten(std::span<double> jacobian, std::size_t p) const {
   scale_along(directions_, whiter_, J);
 }
 
-void whiten_settings(const Observations& data, Eigen::MatrixXd& columns) {
-  const SharedSettings settings(data.points);
-  for (Eigen::Index k = 0; k < columns.cols() && !settings.none(); ++k) {
-    settings.whiten({columns.col(k).data(), data.points.size()});
+void whiten_shared(const Observations& data, const Weights& weights, Eigen::MatrixXd& columns) {
+  const SharedErrors shared(data, weights);
+  for (Eigen::Index k = 0; k < columns.cols() && !shared.none(); ++k) {
+    shared.whiten({columns.col(k).data(), data.points.size()});
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "estimate/least_squares.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 
@@ -46,8 +47,8 @@ class Discrepancy {
 };
 
 /// Whitens every column [points x any] for the errors that points of one setting share, as the
-/// residuals of a fit are (SharedSettings).
-void whiten_settings(const Observations& data, Eigen::MatrixXd& columns);
+/// residuals of a fit are (SharedErrors).
+void whiten_shared(const Observations& data, const Weights& weights, Eigen::MatrixXd& columns);
 
 /// The same problem in whitened residuals. `discrepancy` must outlive it.
 LeastSquaresProblem whitened(LeastSquaresProblem problem, const Discrepancy& discrepancy);

@@ -121,29 +121,34 @@ std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets,
 }
 
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
-                                          const LawErrors& laws, const std::vector<Fold>& folds,
+                                          const Weights& weights, const LawErrors& laws,
+                                          const std::vector<Fold>& folds,
                                           std::span<const double> near, int threads) {
   std::vector<FoldPrediction> predictions(folds.size());
   parallel_over(folds.size(), threads, [&](std::size_t f) {
     const std::vector<std::size_t> others = points_outside(folds[f], data.points.size());
     const Observations seen = data.subset(others);
     const Observations unseen = data.subset(folds[f].points);
+    const Weights weights_seen = weights.subset(others);
+    const Weights weights_unseen = weights.subset(folds[f].points);
     const LawErrors of_seen = laws.of(others);
     const LawErrors of_unseen = laws.of(folds[f].points);
     Refit start;
     start.usable = true;
     start.theta.assign(near.begin(), near.end());
-    const Refit refit = laws.none() ? refit_candidate(candidate, seen, near, 0)
-                                    : with_law_errors(candidate, seen, std::move(start), of_seen);
+    const Refit refit =
+        laws.none() ? refit_candidate(candidate, seen, weights_seen, near, 0)
+                    : with_law_errors(candidate, seen, weights_seen, std::move(start), of_seen);
     if (!refit.usable) return;
-    const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
+    const LeastSquaresProblem problem = impact_problem(candidate.model, unseen, weights_unseen);
     std::vector<double> residuals(problem.residual_count);
     if (!problem.evaluate(refit.theta, residuals, {})) return;
     residuals.resize(unseen.points.size());
     double log_determinant = 0.0;
     if (!laws.none()) {
-      const auto U_seen = law_error_columns(candidate, seen, refit.theta, of_seen);
-      const auto U_unseen = law_error_columns(candidate, unseen, refit.theta, of_unseen);
+      const auto U_seen = law_error_columns(candidate, seen, weights_seen, refit.theta, of_seen);
+      const auto U_unseen =
+          law_error_columns(candidate, unseen, weights_unseen, refit.theta, of_unseen);
       if (!U_seen || !U_unseen) return;
       std::vector<double> plain = refit.residuals;
       refit.discrepancy->unwhiten(plain);
@@ -161,8 +166,9 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
       const Observation& point = unseen.points[k];
       out.deviance += std::min(residuals[k] * residuals[k], worst_miss * worst_miss);
       if (point.counts_only()) continue;
-      out.error.push_back((point.censored ? 0.0 : point.restitution) -
-                          expected_restitution(point, at[k].restitution_squared));
+      out.error.push_back(
+          (point.censored ? 0.0 : point.restitution) -
+          expected_restitution(point, weights_unseen.points[k], at[k].restitution_squared));
     }
   });
   return predictions;

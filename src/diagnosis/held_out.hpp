@@ -49,7 +49,8 @@ struct FoldPrediction {
 ///   r_f - U_f (I + U_s' U_s)^-1 U_s' r_s, with covariance I + U_f (I + U_s' U_s)^-1 U_f'.
 /// @param near start of the refits [slots of the candidate]
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
-                                          const LawErrors& laws, const std::vector<Fold>& folds,
+                                          const Weights& weights, const LawErrors& laws,
+                                          const std::vector<Fold>& folds,
                                           std::span<const double> near, int threads);
 
 /// The gain of an extended model over the base on held-out data. Held-out sizes and targets decide

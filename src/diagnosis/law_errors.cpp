@@ -37,7 +37,7 @@ LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
 }
 
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
-                                                 const Observations& data,
+                                                 const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
                                                  const LawErrors& laws) {
   const ImpactModel& model = candidate.model;
@@ -58,9 +58,9 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   }
   Eigen::VectorXd slopes(all->size());
   for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
     slopes(i) =
-        weighted_residual(data.points[static_cast<std::size_t>(i)], (*all)(i), data.noise.student)
-            .slope;
+        weighted_residual(data.points[k], weights.points[k], (*all)(i), data.noise.student).slope;
   }
   const Eigen::Index rank = laws.functions.cols();
   Eigen::MatrixXd columns(slopes.size(), rank * static_cast<Eigen::Index>(sizes.size()));
@@ -68,14 +68,14 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
     columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
         slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
   }
-  whiten_settings(data, columns);
+  whiten_shared(data, weights, columns);
   return columns;
 }
 
-Refit under_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                       const LawErrors& laws) {
+Refit under_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
+                       Refit refit, const LawErrors& laws) {
   if (laws.none() || !refit.usable) return refit;
-  const auto columns = law_error_columns(candidate, data, refit.theta, laws);
+  const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
   if (!columns) return {};
   refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
   refit.discrepancy->whiten(refit.residuals);
@@ -86,13 +86,13 @@ Refit under_law_errors(const Candidate& candidate, const Observations& data, Ref
   return refit;
 }
 
-Refit with_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                      const LawErrors& laws) {
+Refit with_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
+                      Refit refit, const LawErrors& laws) {
   if (laws.none()) return refit;
   for (int round = 0; round < rounds && refit.usable; ++round) {
-    const auto columns = law_error_columns(candidate, data, refit.theta, laws);
+    const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
     if (!columns) return {};
-    refit = refit_candidate(candidate, data, refit.theta, 0,
+    refit = refit_candidate(candidate, data, weights, refit.theta, 0,
                             std::make_shared<const Discrepancy>(*columns));
   }
   return refit;

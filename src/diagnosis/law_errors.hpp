@@ -33,17 +33,17 @@ struct LawErrors {
 /// The errors of the laws in the weighted residuals of `data` at `theta`: U [points x errors] of
 /// `Discrepancy`. Nullopt if an impact cannot be solved.
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
-                                                 const Observations& data,
+                                                 const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
                                                  const LawErrors& laws);
 
 /// `refit`, which was made without errors of laws, evaluated under their covariance at its
 /// parameters, which do not change.
-Refit under_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                       const LawErrors& laws);
+Refit under_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
+                       Refit refit, const LawErrors& laws);
 
 /// `refit`, repeated under the covariance of the laws' errors at its parameters.
-Refit with_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                      const LawErrors& laws);
+Refit with_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
+                      Refit refit, const LawErrors& laws);
 
 }  // namespace recoil

@@ -68,9 +68,10 @@ PossibleImpacts possible_impacts(const FitResult& base) {
 }
 
 /// The measured points, followed by one observation of each possible impact with the predicted e.
-Observations with_possible(const Observations& data, const PossibleImpacts& possible,
+WeightedData with_possible(const FitResult& fitted, const PossibleImpacts& possible,
                            const std::vector<double>& restitution) {
-  Observations all = data;
+  WeightedData all{fitted.data, fitted.weights};
+  Weights& weights = all.weights;
   for (std::size_t i = 0; i < possible.at.size(); ++i) {
     const PointConditions& at = possible.at[i];
     Observation point;
@@ -81,8 +82,13 @@ Observations with_possible(const Observations& data, const PossibleImpacts& poss
     point.events = 1;
     point.restitution = std::isnan(restitution[i]) ? least_restitution
                                                    : std::max(restitution[i], least_restitution);
-    point.weights.sd = possible.sd[i];
-    all.points.push_back(point);
+    point.sd = possible.sd[i];
+    weights.points.emplace_back().sd = point.sd;
+    if (!weights.predicted.empty()) {
+      weights.predicted.push_back(point.restitution * point.restitution);
+    }
+    for (std::vector<double>& effect : weights.effects) effect.push_back(0.0);
+    all.data.points.push_back(point);
   }
   return all;
 }
@@ -96,13 +102,13 @@ struct Linearised {
 };
 
 /// @return nullopt if an impact cannot be solved
-std::optional<Linearised> linearised_at(const CandidateResult& rival, const Observations& all,
+std::optional<Linearised> linearised_at(const CandidateResult& rival, const WeightedData& all,
                                         const std::vector<double>& theta, const LawErrors& laws) {
-  const LeastSquaresProblem problem = impact_problem(rival.candidate.model, all);
+  const LeastSquaresProblem problem = impact_problem(rival.candidate.model, all.data, all.weights);
   std::vector<double> residuals(problem.residual_count);
   std::vector<double> jacobian(problem.residual_count * theta.size());
   if (!problem.evaluate(theta, residuals, jacobian)) return std::nullopt;
-  const auto columns = law_error_columns(rival.candidate, all, theta, laws);
+  const auto columns = law_error_columns(rival.candidate, all.data, all.weights, theta, laws);
   if (!columns) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(problem.residual_count);
   const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
@@ -136,9 +142,9 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
   found.variance.assign(possible.at.size(), NAN);
   const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
-  const Observations all = with_possible(base.fitted.data, possible, found.restitution);
+  const WeightedData all = with_possible(base.fitted, possible, found.restitution);
   LawErrors laws = base.laws;
-  laws.functions = smooth_functions(all);
+  laws.functions = smooth_functions(all.data);
   const auto here = linearised_at(rival, all, theta, laws);
   const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
   if (!here || !there) return found;
@@ -291,12 +297,13 @@ int effort(const NextExperiment& experiment) {
 
 double scatter_of_one_event(const FitResult& base, std::size_t dataset, double velocity) {
   double nearest = INFINITY, sd = smallest_sd;
-  for (const Observation& point : base.data.points) {
+  for (std::size_t i = 0; i < base.data.points.size(); ++i) {
+    const Observation& point = base.data.points[i];
     if (point.dataset != dataset || point.censored) continue;
     const double distance = std::abs(std::log(point.velocity / velocity));
     if (distance >= nearest) continue;
     nearest = distance;
-    sd = point.weights.sd * std::sqrt(static_cast<double>(std::max(point.rebounds(), 1))) *
+    sd = base.weights.points[i].sd * std::sqrt(static_cast<double>(std::max(point.rebounds(), 1))) *
          base.noise_scale;
   }
   return std::max(sd, smallest_sd);

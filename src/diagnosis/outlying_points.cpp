@@ -59,9 +59,9 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double slope =
-        weighted_residual(data.points[k], base.fitted.prediction_squared[k], data.noise.student)
-            .slope;
+    const double slope = weighted_residual(data.points[k], base.fitted.weights.points[k],
+                                           base.fitted.prediction_squared[k], data.noise.student)
+                             .slope;
     U.row(i).segment(free, smooth.cols()) = any_discrepancy * slope * smooth.row(i);
     const auto& [group, slowest] = groups[{data.points[k].dataset, data.points[k].diameter}];
     U(i, near_capture + group) = slope * std::pow(slowest / data.points[k].velocity, steepness);

@@ -87,7 +87,7 @@ std::size_t DesignRates::pieces() const { return truths_.size() * datasets_; }
 std::vector<double> DesignRates::run(std::size_t piece) const {
   const Truth& truth = truths_[piece / datasets_];
   const std::vector<Dataset> datasets = with_readings(
-      diagnosis_.datasets, simulate_points(*base_, truth.squares, 0.0, first_draw + piece));
+      diagnosis_.datasets, simulate_points(*base_, truth.squares, 0.0, first_draw + piece).data);
   try {
     const Diagnosis found = diagnose(diagnosis_.spec, datasets, options_);
     const bool alone = found.named() == std::vector<std::string>{truth.id};

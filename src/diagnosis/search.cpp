@@ -10,7 +10,8 @@
 #include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/setting_error.hpp"
+#include "estimate/shared_errors.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -21,7 +22,8 @@ namespace {
 FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& datasets,
                               const FitResult& fitted) {
   const Observations& data = fitted.data;
-  if (!data.noise.setting_sd_estimated || !(data.noise.setting_sd > 0.0)) return fitted;
+  const double sigma = fitted.weights.noise.setting_sd;
+  if (!data.noise.setting_sd_estimated || !(sigma > 0.0)) return fitted;
   const int free = fitted.model.free_count();
   const Eigen::MatrixXd smooth = smooth_functions(data);
   const Eigen::Index half = (count_settings(data).settings - free) / 2;
@@ -30,9 +32,10 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
   for (Eigen::Index k = 0; k < std::min<Eigen::Index>(half, smooth.cols()); ++k) {
     trends.emplace_back(smooth.col(k).begin(), smooth.col(k).end());
   }
-  const double rough = estimated_setting_error(data, fitted.prediction_squared, free, trends);
-  Noise::Spec noise = spec.noise;
-  noise.setting_sd = too_few_settings(data, free) ? 0.0 : std::min(rough, data.noise.setting_sd);
+  const double rough =
+      estimated_setting_error(data, fitted.weights, fitted.prediction_squared, free, trends);
+  NoiseSpec noise = spec.noise;
+  noise.setting_sd = too_few_settings(data, free) ? 0.0 : std::min(rough, sigma);
   FitOptions options;
   options.several_starts = false;
   options.start = fitted.theta;
@@ -42,9 +45,10 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
 
 /// Draws a point whose impacts were all captured and whose scatter is unknown: if the model
 /// predicts a rebound, the error of e decides (see `weighted_residual`).
-void draw_capture(Observation& point, double square, RandomStream& random) {
-  const double sd = point.weights.sd;
-  const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
+void draw_capture(Observation& point, const PointWeights& weights, double square,
+                  RandomStream& random) {
+  const double sd = weights.sd;
+  const double error = std::hypot(std::sqrt(2.0) * sd * sd, weights.input_sd);
   const double reading = std::sqrt(std::max(square, 0.0)) + sd * random.normal();
   if (!(square + error * random.normal() > 0.0) || !(reading > 0.0)) return;
   point.censored = false;
@@ -57,7 +61,8 @@ void draw_capture(Observation& point, double square, RandomStream& random) {
 std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
                                 const std::vector<double>& theta) {
   const LeastSquaresProblem problem =
-      whitened(impact_problem(candidate.model, base.fitted.data), *base.refit.discrepancy);
+      whitened(impact_problem(candidate.model, base.fitted.data, base.fitted.weights),
+               *base.refit.discrepancy);
   std::vector<double> residuals(problem.residual_count);
   std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
   if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
@@ -115,39 +120,44 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   const FitResult& fitted = base.fitted;
   base.laws = {spec.law_error, law_error_of_base * spec.law_error, smooth_functions(fitted.data)};
   base.candidate.model.solver = fitted.model.solver;
-  base.refit =
-      with_law_errors(base.candidate, fitted.data,
-                      refit_candidate(base.candidate, fitted.data, fitted.theta, 1), base.laws);
+  base.refit = with_law_errors(
+      base.candidate, fitted.data, fitted.weights,
+      refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1), base.laws);
   base.criterion = corrected_criterion(fitted.data, base.refit, base.candidate.free_count);
   if (!fitted.data.noise.sd_stated) base.noise_scale = fitted.noise_scale;
   return base;
 }
 
-Observations simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
+WeightedData simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
                              std::uint64_t index) {
   RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(base.laws.functions.cols());
   for (double& weight : weights) weight = random.normal();
   const Eigen::VectorXd wrong_by = bend * (base.laws.functions * weights);
-  Observations sample = base.fitted.data;
-  RandomStream of_settings(base.options.seed, RandomPurpose::settings, index);
-  const std::vector<double> shared = draw_setting_errors(sample, base.noise_scale, of_settings);
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    Observation& point = sample.points[i];
+  const FitResult& fitted = base.fitted;
+  WeightedData sample{fitted.data, fitted.weights};
+  RandomStream of_shared(base.options.seed, RandomPurpose::settings, index);
+  const std::vector<double> shared =
+      draw_shared_errors(fitted.data, fitted.weights, base.noise_scale, of_shared);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    Observation& point = sample.data.points[i];
+    PointWeights& own = sample.weights.points[i];
     const double loss = std::clamp(1.0 - squares[i], 0.0, 1.0);
     const double bent = squares[i] + loss * wrong_by(static_cast<Eigen::Index>(i));
-    point = simulate_observation(point, shifted_square(bent, shared[i]),
-                                 own_noise_scale(point, base.noise_scale), sample.noise.student,
-                                 random);
-    if (point.peaks()) locate_peak(point);
-    if (point.censored && !point.counts_only() && !(point.weights.scatter > 0.0)) {
-      draw_capture(point, squares[i], random);
+    const DrawnPoint drawn = simulate_observation(point, own, shifted_square(bent, shared[i]),
+                                                  own_noise_scale(fitted.data, i, base.noise_scale),
+                                                  fitted.data.noise.student, random);
+    point = drawn.point;
+    own = drawn.weights;
+    locate_peak(point, own);
+    if (point.censored && !point.counts_only() && !(own.scatter > 0.0)) {
+      draw_capture(point, own, squares[i], random);
     }
   }
   return sample;
 }
 
-Observations simulate_base(const SearchBase& base, std::uint64_t index) {
+WeightedData simulate_base(const SearchBase& base, std::uint64_t index) {
   return simulate_points(base, base.fitted.prediction_squared, base.laws.base, index);
 }
 
@@ -155,7 +165,8 @@ std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base,
                                                        std::uint64_t index) {
   using Answer = std::optional<std::vector<double>>;
   const auto make = [&]() -> Answer {
-    Refit refit = refit_candidate(base.candidate, simulate_base(base, index), base.refit.theta, 0,
+    const WeightedData sample = simulate_base(base, index);
+    Refit refit = refit_candidate(base.candidate, sample.data, sample.weights, base.refit.theta, 0,
                                   base.refit.discrepancy);
     if (!refit.usable) return std::nullopt;
     return std::move(refit.residuals);

@@ -36,12 +36,12 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 /// Simulates new readings of the sample if the true e^2 is `squares`, with the loss 1 - e^2
 /// multiplied by a smooth random factor 1 + g with sd `bend` of g [1]. `index` numbers the draws.
-Observations simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
+WeightedData simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
                              std::uint64_t index);
 
 /// Replicate `index` of the sample under the base model, whose losses have a smooth error of the
 /// size that `laws` allows.
-Observations simulate_base(const SearchBase& base, std::uint64_t index);
+WeightedData simulate_base(const SearchBase& base, std::uint64_t index);
 
 /// The residuals of the refit of replicate `index`, whitened like those of `base.refit` [points];
 /// nullopt if the refit fails. Uses the kept result if there is one.

@@ -10,7 +10,7 @@
 #include "core/random.hpp"
 #include "diagnosis/discrepancy.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -84,19 +84,21 @@ Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
 
 }  // namespace
 
-StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
-                                         std::span<const double> predicted)
+StructureStatistics::StructureStatistics(const Observations& data, const Weights& weights,
+                                         const Refit& fitted, std::span<const double> predicted)
     : stated_(data.noise.sd_stated),
-      noise_known_(data.noise.known),
+      noise_known_(weights.noise.known),
       slopes_(data.points.size()),
-      settings_(data.points),
+      shared_(data, weights),
       discrepancy_(fitted.discrepancy),
       used_(data.points.size(), true) {
   const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   for (std::size_t i = 0; i < n; ++i) {
     used_[i] = data.points[i].informs(predicted[i]);
-    slopes_[i] = weighted_residual(data.points[i], predicted[i], data.noise.student).slope;
+    slopes_[i] =
+        weighted_residual(data.points[i], weights.points[i], predicted[i], data.noise.student)
+            .slope;
   }
   std::map<std::tuple<std::size_t, std::size_t, double, double>, std::size_t> impacts;
   for (const Observation& point : data.points) {
@@ -157,7 +159,7 @@ void StructureStatistics::keep_to_impacts(Column& column) const {
 /// and to `into`, if anything is left.
 void StructureStatistics::take(Column column, std::vector<Column>& into) const {
   for (std::size_t i = 0; i < column.size(); ++i) column[i] *= slopes_[i];
-  settings_.whiten(column);
+  shared_.whiten(column);
   discrepancy_->whiten(column);
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (!used_[i]) column[i] = 0.0;
@@ -397,9 +399,9 @@ Samples white_noise(int samples, std::size_t points, std::uint64_t seed) {
   return noise;
 }
 
-Structure quick_structure(const Observations& data, const Refit& fitted,
+Structure quick_structure(const Observations& data, const Weights& weights, const Refit& fitted,
                           std::span<const double> predicted, const Samples& noise) {
-  const StructureStatistics statistics(data, fitted, predicted);
+  const StructureStatistics statistics(data, weights, fitted, predicted);
   return judge_structure(statistics, fitted.residuals,
                          statistics(statistics.residuals_of_noise(noise)));
 }

@@ -7,7 +7,7 @@
 
 #include "core/names.hpp"
 #include "diagnosis/candidate.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -61,7 +61,7 @@ class StructureStatistics {
   /// @param fitted the fit, whose Jacobian gives the deviations that the parameters can fit
   /// @param predicted e^2 of every point: a point that is captured in the data and in the model
   ///   does not scatter and is omitted
-  StructureStatistics(const Observations& data, const Refit& fitted,
+  StructureStatistics(const Observations& data, const Weights& weights, const Refit& fitted,
                       std::span<const double> predicted);
 
   PerValue<StructureQuestion, double> operator()(std::span<const double> residuals) const;
@@ -92,7 +92,7 @@ class StructureStatistics {
   std::vector<double> slopes_;  // d residual / d e^2 [points]
   // Index of the combination of series, size and velocity [points].
   std::vector<std::size_t> impact_;
-  SharedSettings settings_;                         // whiten functions like the residuals
+  SharedErrors shared_;                             // whiten functions like the residuals
   std::shared_ptr<const Discrepancy> discrepancy_;  // also whitens functions
   std::vector<bool> used_;
   std::size_t used_count_ = 0;
@@ -115,7 +115,7 @@ Samples white_noise(int samples, std::size_t points, std::uint64_t seed);
 
 /// The structure in the residuals of `fitted`, compared with samples of `noise` after the same
 /// projection: without refits, exact for a model that is linear within its errors.
-Structure quick_structure(const Observations& data, const Refit& fitted,
+Structure quick_structure(const Observations& data, const Weights& weights, const Refit& fitted,
                           std::span<const double> predicted, const Samples& noise);
 
 }  // namespace recoil

@@ -136,7 +136,8 @@ void find_remaining_p(const SearchBase& base, CandidateResult& result) {
        predict(result.candidate.model, result.refit.theta, data.conditions(), false)) {
     squares.push_back(at.restitution_squared);
   }
-  result.remaining_p = quick_structure(data, result.refit, squares, base.noise).p_value;
+  result.remaining_p =
+      quick_structure(data, base.fitted.weights, result.refit, squares, base.noise).p_value;
 }
 
 /// Start values for `to` from the fit `from`, with free slots clamped to their bounds.
@@ -223,8 +224,13 @@ bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candid
     const std::vector<Prediction> acted = predict(model, theta, candidate.impacts, false);
     for (std::size_t i = 0; i < acted.size(); ++i) {
       if (!acted[i].usable() || !plain[i].usable()) return true;  // only a fit can show the effect
-      const double r = weighted_residual(data.points[i], acted[i].restitution_squared).value;
-      const double before = weighted_residual(data.points[i], plain[i].restitution_squared).value;
+      const auto residual = [&](const Prediction& at) {
+        return weighted_residual(data.points[i], base.fitted.weights.points[i],
+                                 at.restitution_squared)
+            .value;
+      };
+      const double r = residual(acted[i]);
+      const double before = residual(plain[i]);
       if (std::abs(r - before) >= least_effect) return true;
     }
     return false;
@@ -299,13 +305,14 @@ void look_at(const SearchBase& base, FirstLook& look) {
   if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
   if (!can_be_seen(base, look.both)) return;
   for (const CandidateResult* from : {look.first, look.second}) {
-    Refit refit = refit_candidate(look.both, data, start_from(*from, look.both), 1);
+    Refit refit =
+        refit_candidate(look.both, data, base.fitted.weights, start_from(*from, look.both), 1);
     if (refit.usable && !(look.refit.usable && look.refit.chi2 <= refit.chi2)) {
       look.refit = std::move(refit);
     }
   }
   look.delta_aicc = std::min(look.first->delta_aicc, look.second->delta_aicc);
-  const Refit seen = under_law_errors(look.both, data, look.refit, base.laws);
+  const Refit seen = under_law_errors(look.both, data, base.fitted.weights, look.refit, base.laws);
   if (!seen.usable) return;
   look.delta_aicc = std::min(
       look.delta_aicc, corrected_criterion(data, seen, look.both.free_count) - base.criterion);
@@ -347,7 +354,7 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   const CandidateResult& second = *look.second;
   const Observations& data = base.fitted.data;
   const auto apply_laws = follow ? with_law_errors : under_law_errors;
-  Refit refit = apply_laws(look.both, data, std::move(look.refit), base.laws);
+  Refit refit = apply_laws(look.both, data, base.fitted.weights, std::move(look.refit), base.laws);
   CandidateResult result = examine(base, std::move(look.both), std::move(refit));
   if (follow) try_released(base, result, tries_in_pairs);
   find_remaining_p(base, result);
@@ -379,7 +386,7 @@ std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size
 
 bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
   const Observations& data = base.fitted.data;
-  if (!data.noise.known) return false;
+  if (!base.fitted.weights.noise.known) return false;
   const std::vector<const Mechanism*> added = chain_of(candidate.added);
   const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
   const bool by_series =
@@ -402,9 +409,9 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
 
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries) {
-  Refit refit =
-      with_law_errors(candidate, base.fitted.data,
-                      refit_candidate(candidate, base.fitted.data, near, tries), base.laws);
+  Refit refit = with_law_errors(
+      candidate, base.fitted.data, base.fitted.weights,
+      refit_candidate(candidate, base.fitted.data, base.fitted.weights, near, tries), base.laws);
   return examine(base, std::move(candidate), std::move(refit));
 }
 
@@ -412,7 +419,7 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
   for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
     // The base model already has a spread of the impacts from the counts of captures.
-    if (mechanism->spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
+    if (mechanism->spreads() && base.fitted.weights.noise.event_spread > 0.0) continue;
     untried.push_back(mechanism);
   }
   std::vector<CandidateResult> results(untried.size());

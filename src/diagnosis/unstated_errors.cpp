@@ -15,7 +15,8 @@
 #include "core/units.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/setting_error.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 
@@ -68,25 +69,26 @@ constexpr double smallest_setting_error = 2e-4;  // error of e [1]
 constexpr int steps = 15;
 
 /// Standard deviation of the e^2 of a point that rebounded, including the errors of V and d [1].
-double square_sd(const Observation& point) {
+double square_sd(const Observation& point, const PointWeights& weights) {
   const double e = point.restitution;
-  if (point.weights.mean_sd > 0.0) return 2.0 * e * point.weights.mean_sd;
-  return std::hypot(std::max(2.0 * e, point.weights.sd) * point.weights.sd, point.weights.input_sd);
+  if (weights.mean_sd > 0.0) return 2.0 * e * weights.mean_sd;
+  return std::hypot(std::max(2.0 * e, weights.sd) * weights.sd, weights.input_sd);
 }
 
 /// -2 ln likelihood of a fit up to a constant, including the terms that depend on the weights.
-double deviance_with_weights(const Observations& data, std::span<const double> residuals) {
-  double sum = SharedSettings(data.points).log_determinant();
+double deviance_with_weights(const FitResult& fitted, std::span<const double> residuals) {
+  const Observations& data = fitted.data;
+  double sum = SharedErrors(data, fitted.weights).log_determinant();
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
     sum += residuals[i] * residuals[i];
-    if (!point.censored) sum += 2.0 * std::log(square_sd(point));
+    if (!point.censored) sum += 2.0 * std::log(square_sd(point, fitted.weights.points[i]));
   }
   return sum;
 }
 
-double deviance_with_weights(const Observations& data, const Refit& refit) {
-  return deviance_with_weights(data, refit.residuals) + refit.discrepancy->log_determinant();
+double deviance_with_weights(const FitResult& fitted, const Refit& refit) {
+  return deviance_with_weights(fitted, refit.residuals) + refit.discrepancy->log_determinant();
 }
 
 /// The fraction of `simulated` residuals with at least this ratio of the fourth moment to the
@@ -107,19 +109,19 @@ double tails_p(std::span<const double> residuals, const Samples& simulated) {
 }
 
 /// The smaller p-value of structure and tails of the residuals, corrected for two tests.
-double remaining_p(const SearchBase& base, const Observations& data, const Refit& refit,
-                   std::span<const double> predicted) {
-  const StructureStatistics statistics(data, refit, predicted);
+double remaining_p(const SearchBase& base, const Observations& data, const FitResult& fitted,
+                   const Refit& refit) {
+  const StructureStatistics statistics(data, fitted.weights, refit, fitted.prediction_squared);
   const Samples simulated = statistics.residuals_of_noise(base.noise);
   const Structure structure = judge_structure(statistics, refit.residuals, statistics(simulated));
   return std::min(1.0, 2.0 * std::min(structure.p_value, tails_p(refit.residuals, simulated)));
 }
 
 /// The fit of the base model under the errors of `datasets` and `noise`.
-FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets,
-                    Noise::Spec noise) {
-  if (base.fitted.data.noise.shares_settings())
-    noise.setting_sd = base.fitted.data.noise.setting_sd;
+FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets, NoiseSpec noise) {
+  if (base.fitted.data.share(SharedBy::setting)) {
+    noise.setting_sd = base.fitted.weights.noise.setting_sd;
+  }
   FitOptions options;
   options.several_starts = false;
   options.start = base.fitted.theta;
@@ -127,22 +129,22 @@ FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets
 }
 
 /// The reading of a rebound: a height [m], or a time of flight [s].
-double reading_of(const ImpactPoint& point, ErrorSource source) {
-  return source == ErrorSource::height_readings
+double reading_of(const ImpactPoint& point, UnstatedSource source) {
+  return source == UnstatedSource::height_readings
              ? rebound_height(point)
              : 2.0 * point.restitution * point.incident_velocity / standard_gravity;
 }
 
 /// The sd of e over the sd of a reading [1/m or 1/s].
-double slope_of_reading(const ImpactPoint& point, ErrorSource source) {
+double slope_of_reading(const ImpactPoint& point, UnstatedSource source) {
   const double e = point.restitution;
   const double v = point.incident_velocity;
-  return source == ErrorSource::height_readings
+  return source == UnstatedSource::height_readings
              ? standard_gravity / (e * v * v)
              : std::sqrt(1.0 + e * e) * standard_gravity / (2.0 * v);
 }
 
-FitResult fit_with_reading_errors(const SearchBase& base, ErrorSource source, double sd) {
+FitResult fit_with_reading_errors(const SearchBase& base, UnstatedSource source, double sd) {
   std::vector<Dataset> datasets = base.datasets;
   for (Dataset& dataset : datasets) {
     for (ImpactPoint& point : dataset.points) {
@@ -181,28 +183,27 @@ std::optional<double> best_error(const SearchBase& base, double least, double mo
 
 /// The errors of the size that maximises the likelihood of the data.
 template <class FitWith>
-std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource source, double least,
+std::optional<UnstatedErrors> likeliest(const SearchBase& base, UnstatedSource source, double least,
                                         double most, const FitWith& fit_with) {
   const std::optional<double> value = best_error(base, least, most, [&](double sd) {
     const FitResult fitted = fit_with(sd);
-    return fitted.usable ? deviance_with_weights(fitted.data, fitted.residuals) : INFINITY;
+    return fitted.usable ? deviance_with_weights(fitted, fitted.residuals) : INFINITY;
   });
   if (!value) return std::nullopt;
   const FitResult fitted = fit_with(*value);
   if (!fitted.usable) return std::nullopt;
-  const Refit refit =
-      with_law_errors(base.candidate, fitted.data,
-                      refit_candidate(base.candidate, fitted.data, fitted.theta, 1), base.laws);
+  const Refit refit = with_law_errors(
+      base.candidate, fitted.data, fitted.weights,
+      refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1), base.laws);
   if (!refit.usable) return std::nullopt;
   const int free = base.candidate.free_count;
   UnstatedErrors found;
   found.source = source;
   found.value = *value;
   found.delta_aicc =
-      corrected_criterion(fitted.data, deviance_with_weights(fitted.data, refit), free + 1) -
-      corrected_criterion(base.fitted.data, deviance_with_weights(base.fitted.data, base.refit),
-                          free);
-  found.remaining_p = remaining_p(base, fitted.data, refit, fitted.prediction_squared);
+      corrected_criterion(fitted.data, deviance_with_weights(fitted, refit), free + 1) -
+      corrected_criterion(base.fitted.data, deviance_with_weights(base.fitted, base.refit), free);
+  found.remaining_p = remaining_p(base, fitted.data, fitted, refit);
   return found;
 }
 
@@ -210,9 +211,9 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
   const bool stated = std::ranges::any_of(
       base.fitted.data.points, [](const Observation& point) { return point.velocity_sd > 0.0; });
   if (stated) return std::nullopt;
-  return likeliest(base, ErrorSource::velocity_errors, smallest_error, largest_error,
+  return likeliest(base, UnstatedSource::velocity_errors, smallest_error, largest_error,
                    [&](double relative_sd) {
-                     Noise::Spec noise = base.spec.noise;
+                     NoiseSpec noise = base.spec.noise;
                      noise.velocity_errors = true;
                      noise.velocity_relative_sd = relative_sd;
                      return fit_under(base, base.datasets, noise);
@@ -220,18 +221,18 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
 }
 
 /// The quantity that the instrument of all datasets reads; nullopt without a common one.
-std::optional<ErrorSource> readings_of(const std::vector<Dataset>& datasets) {
+std::optional<UnstatedSource> readings_of(const std::vector<Dataset>& datasets) {
   const auto all_by = [&](Method method) {
     return std::ranges::all_of(datasets,
                                [&](const Dataset& one) { return one.system.method == method; });
   };
-  if (all_by(Method::drop_heights)) return ErrorSource::height_readings;
-  if (all_by(Method::bounce_intervals)) return ErrorSource::time_readings;
+  if (all_by(Method::drop_heights)) return UnstatedSource::height_readings;
+  if (all_by(Method::bounce_intervals)) return UnstatedSource::time_readings;
   return std::nullopt;
 }
 
 std::optional<UnstatedErrors> reading_errors(const SearchBase& base) {
-  const std::optional<ErrorSource> source = readings_of(base.datasets);
+  const std::optional<UnstatedSource> source = readings_of(base.datasets);
   if (!source) return std::nullopt;
   std::vector<double> readings;
   for (const Dataset& dataset : base.datasets) {
@@ -253,13 +254,13 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   const int free = base.candidate.free_count;
   const double n = dof + free;  // number of points that scatter
   UnstatedErrors found;
-  found.source = ErrorSource::larger_deviations;
+  found.source = UnstatedSource::larger_deviations;
   found.value = std::sqrt(chi2 / dof);
   found.delta_aicc = corrected_criterion(base.fitted.data, n * std::log(chi2 / n) + n, free + 1) -
                      corrected_criterion(base.fitted.data, chi2, free);
   Observations unsized = base.fitted.data;
   unsized.noise.sd_stated = false;
-  found.remaining_p = remaining_p(base, unsized, base.refit, base.fitted.prediction_squared);
+  found.remaining_p = remaining_p(base, unsized, base.fitted, base.refit);
   return found;
 }
 
@@ -278,9 +279,11 @@ Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
     if (point.censored) continue;
     const double square = base.fitted.prediction_squared[i];
     columns(static_cast<Eigen::Index>(i), place[point.setting]) =
-        sd * slope_in_restitution(weighted_residual(point, square, data.noise.student), square);
+        sd * slope_in_restitution(weighted_residual(point, base.fitted.weights.points[i], square,
+                                                    data.noise.student),
+                                  square);
   }
-  whiten_settings(data, columns);
+  whiten_shared(data, base.fitted.weights, columns);
   return columns;
 }
 
@@ -293,18 +296,19 @@ bool has_settings_of_several_points(const Observations& data) {
 /// Refits the base model under the errors of its laws and a shared error of settings of size `sd`.
 Refit fit_with_settings(const SearchBase& base, double sd) {
   const Observations& data = base.fitted.data;
-  const auto laws = law_error_columns(base.candidate, data, base.refit.theta, base.laws);
+  const auto laws =
+      law_error_columns(base.candidate, data, base.fitted.weights, base.refit.theta, base.laws);
   if (!laws) return {};
   const Eigen::MatrixXd settings = setting_columns(base, sd);
   Eigen::MatrixXd both(settings.rows(), laws->cols() + settings.cols());
   both << *laws, settings;
-  return refit_candidate(base.candidate, data, base.refit.theta, 1,
+  return refit_candidate(base.candidate, data, base.fitted.weights, base.refit.theta, 1,
                          std::make_shared<const Discrepancy>(both));
 }
 
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.noise.setting_velocity_stated) {
+  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || setting_velocity_error().acts(data)) {
     return std::nullopt;  // the error is stated
   }
   if (!has_settings_of_several_points(data)) return std::nullopt;
@@ -318,10 +322,10 @@ std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Refit refit = fit_with_settings(base, *sd);
   if (!refit.usable) return std::nullopt;
   UnstatedErrors found;
-  found.source = ErrorSource::shared_setting;
+  found.source = UnstatedSource::shared_setting;
   found.delta_aicc = corrected_criterion(data, refit, free + 1) - base.criterion;
-  found.value = std::hypot(*sd, data.noise.setting_sd);
-  found.remaining_p = remaining_p(base, data, refit, base.fitted.prediction_squared);
+  found.value = std::hypot(*sd, base.fitted.weights.noise.setting_sd);
+  found.remaining_p = remaining_p(base, data, base.fitted, refit);
   return found;
 }
 

@@ -10,7 +10,7 @@ namespace recoil {
 
 struct SearchBase;
 
-enum class ErrorSource {
+enum class UnstatedSource {
   velocity_errors,    ///< every incident velocity has the same relative error
   larger_deviations,  ///< all standard deviations are too small by the same factor
   shared_setting,     ///< all points of one setting of the apparatus share an error
@@ -18,14 +18,14 @@ enum class ErrorSource {
   time_readings,      ///< every time of flight has the same error [s]
 };
 template <>
-struct NamesOf<ErrorSource> {
+struct NamesOf<UnstatedSource> {
   static constexpr std::array<std::string_view, 5> names = {
       "velocity_errors", "larger_deviations", "shared_setting", "height_readings", "time_readings"};
 };
 
 /// Errors of the measurement beyond the stated ones that may explain the data instead of a cause.
 struct UnstatedErrors {
-  ErrorSource source = ErrorSource::velocity_errors;
+  UnstatedSource source = UnstatedSource::velocity_errors;
   /// Relative sd of every velocity [1], factor on every standard deviation [1], sd of e that the
   /// points of a setting share [1], sd of every height [m] or time [s].
   double value = 0.0;
@@ -34,7 +34,7 @@ struct UnstatedErrors {
 
   /// Are they errors of reading a scale with finite steps, which every such instrument has?
   bool of_readings() const {
-    return source == ErrorSource::height_readings || source == ErrorSource::time_readings;
+    return source == UnstatedSource::height_readings || source == UnstatedSource::time_readings;
   }
   bool leave_nothing() const { return delta_aicc < 0.0 && remaining_p >= tolerated_level; }
 };

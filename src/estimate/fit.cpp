@@ -63,9 +63,10 @@ void record_leverage(FitResult& result, const std::vector<double>& jacobian,
 }
 
 /// (e - e_model)^2 of a point; a capture counts with e = 0.
-double squared_miss(const Observation& point, double predicted_squared) {
+double squared_miss(const Observation& point, const PointWeights& weights,
+                    double predicted_squared) {
   const double measured = point.censored ? 0.0 : point.restitution;
-  return std::pow(measured - expected_restitution(point, predicted_squared), 2);
+  return std::pow(measured - expected_restitution(point, weights, predicted_squared), 2);
 }
 
 /// Root mean square of e - e_model over the points with a known e; NaN without any.
@@ -74,7 +75,8 @@ double root_mean_square(const FitResult& result) {
   int count = 0;
   for (std::size_t i = 0; i < result.data.points.size(); ++i) {
     if (result.data.points[i].counts_only()) continue;
-    sum += squared_miss(result.data.points[i], result.prediction_squared[i]);
+    sum +=
+        squared_miss(result.data.points[i], result.weights.points[i], result.prediction_squared[i]);
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : NAN;
@@ -97,8 +99,10 @@ void take_over(FitResult& result, const LeastSquaresResult& run) {
 }
 
 Misfit misfit_of(const FitResult& result, const LeastSquaresResult& run) {
-  return misfit(result.data, result.residuals, result.prediction_squared, result.model.free_count(),
-                constants_in_fit(run, result.model.adjusted_count(), result.data.constants_weight));
+  return misfit(
+      result.data, result.weights, result.residuals, result.prediction_squared,
+      result.model.free_count(),
+      constants_in_fit(run, result.model.adjusted_count(), result.weights.noise.constants_weight));
 }
 
 /// Repeats the fit with `constants_weight` = noise_scale until noise_scale does not change: the
@@ -109,12 +113,12 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
   constexpr int most_rounds = 20;
   constexpr double at_rest = 1e-4;  // relative change of the scale
   for (int round = 0; round < most_rounds; ++round) {
-    result.data.constants_weight = result.noise_scale;
-    ReweightedFit again =
-        reweighted_fit(result.model, result.data, result.theta, {.minimiser = options});
+    result.weights.noise.constants_weight = result.noise_scale;
+    ReweightedFit again = reweighted_fit(result.model, result.data, result.weights.noise,
+                                         result.theta, {.minimiser = options});
     run = std::move(again.run);
     if (!run.ended()) return false;
-    result.data = std::move(again.data);
+    result.weights = std::move(again.weights);
     take_over(result, run);
     const double scale = misfit_of(result, run).scale();
     const bool done = std::abs(scale / result.noise_scale - 1.0) < at_rest;
@@ -126,12 +130,14 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
 }
 
 /// Counts the points whose errors of V and d are too large for a first-order effective variance.
-int count_strained(const std::vector<Observation>& points) {
-  return static_cast<int>(std::count_if(points.begin(), points.end(), [](const Observation& p) {
-    const PointWeights& w = p.weights;
-    const double sd = std::hypot(std::max(2.0 * p.restitution, w.sd) * w.sd, w.input_sd);
-    return std::abs(w.input_bias) > strained_bias * sd;
-  }));
+int count_strained(const Observations& data, const Weights& weights) {
+  int strained = 0;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const PointWeights& w = weights.points[i];
+    const double of_e2 = std::max(2.0 * data.points[i].restitution, w.sd) * w.sd;
+    if (std::abs(w.input_bias) > strained_bias * std::hypot(of_e2, w.input_sd)) ++strained;
+  }
+  return strained;
 }
 
 /// Removes counts of captures where a mechanism of the model, or the sizes that a dataset states,
@@ -158,7 +164,6 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   FitResult result;
   result.model = model;
   result.data = std::move(observed);
-  result.data.constants_weight = 1.0;
   leave_out_explained_counts(model, result);
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const int free_count = model.free_count();
@@ -186,17 +191,21 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   LeastSquaresResult best;
   std::size_t best_start = search.leads.front().start;
   if (result.data.weights_depend_on_fit()) {
-    ReweightedFit reweighted = reweighted_fit(model, result.data, search.leads.front().run.theta,
-                                              {.minimiser = minimiser});
+    Noise noise = options.noise.value_or(first_noise(result.data.noise));
+    noise.constants_weight = 1.0;
+    ReweightedFit reweighted = reweighted_fit(
+        model, result.data, noise, search.leads.front().run.theta, {.minimiser = minimiser});
     if (!reweighted.run.ended()) {
       result.failure = "reweighting did not converge: " + reweighted.run.message;
       return result;
     }
     result.weights_at_rest = reweighted.at_rest;
     best = std::move(reweighted.run);
-    result.data = std::move(reweighted.data);
+    result.weights = std::move(reweighted.weights);
   } else {
-    const LeastSquaresProblem problem = impact_problem(model, result.data, &result.handovers);
+    result.weights = first_weights(result.data);
+    const LeastSquaresProblem problem =
+        impact_problem(model, result.data, result.weights, &result.handovers);
     for (StartLead& lead : search.leads) {
       LeastSquaresResult run = minimise(problem, lead.run.theta, minimiser);
       if (!run.ended() && !search.sampled) run = std::move(lead.run);
@@ -220,16 +229,16 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     result.failure = "the fit with widened errors of the points did not converge: " + best.message;
     return result;
   }
-  result.strained_points = count_strained(result.data.points);
+  result.strained_points = count_strained(result.data, result.weights);
   result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
   result.spread_covariance =
-      event_spread_covariance(model, result.theta, result.data, best.covariance);
+      event_spread_covariance(model, result.theta, result.data, result.weights, best.covariance);
   for (std::size_t k = 0; k < result.spread_covariance.size(); ++k) {
     result.covariance[k] += result.spread_covariance[k];
   }
   result.constant_effects = constant_effects(model, best, result.data.points.size());
   add_constant_effects(result.constant_effects, result.covariance);
-  if (!result.data.noise.known) result.covariance.clear();
+  if (!result.weights.noise.known) result.covariance.clear();
   result.std_error.assign(result.theta.size(), 0.0);
   for (std::size_t j = 0; !result.covariance.empty() && j < result.theta.size(); ++j) {
     result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
@@ -263,7 +272,8 @@ FitResult fit(const ImpactModel& model, Observations observed, const FitOptions&
 }
 
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
-                        const Observations& data, const std::vector<std::size_t>& subset) {
+                        const Observations& data, const Weights& weights,
+                        const std::vector<std::size_t>& subset) {
   std::vector<std::size_t> points = subset;
   if (points.empty()) {
     points.resize(data.points.size());
@@ -278,7 +288,8 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
   double sum = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    sum += squared_miss(data.points[points[k]], predictions[k].restitution_squared);
+    sum += squared_miss(data.points[points[k]], weights.points[points[k]],
+                        predictions[k].restitution_squared);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
 }

@@ -9,6 +9,7 @@
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
 #include "estimate/start_search.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 
@@ -37,6 +38,7 @@ struct FitOptions {
   bool several_starts = true;
   std::vector<double> start;  ///< overrides the model's initial values when not empty
   LeastSquaresOptions minimiser;
+  std::optional<Noise> noise;  ///< where the estimates of the noise start; empty: `first_noise`
   int threads = 0;  ///< 0: the caller's arena. Results do not depend on the number of threads.
 };
 
@@ -45,8 +47,8 @@ struct FitResult {
   bool usable = false;
   std::string failure;  ///< message: the reason, and the point that caused it
   ImpactModel model;
-  Observations data;  ///< the points with the weights of this fit; refits, profiles and simulations
-                      ///< start from them
+  Observations data;  ///< the points that were fitted
+  Weights weights;    ///< theirs in this fit; refits, profiles and simulations start from them
   std::vector<double> theta;                   ///< [slots]
   std::vector<bool> at_bound;                  ///< [slots]
   DescentEnd ending = DescentEnd::minimum;     ///< end of the last descent: minimum, valley or flat
@@ -106,6 +108,7 @@ std::vector<std::size_t> held_back_dampings(const FitResult& fitted);
 /// captured points count with e = 0, and means of survivors are compared with
 /// `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
-                        const Observations& data, const std::vector<std::size_t>& subset = {});
+                        const Observations& data, const Weights& weights,
+                        const std::vector<std::size_t>& subset = {});
 
 }  // namespace recoil

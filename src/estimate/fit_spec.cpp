@@ -24,7 +24,7 @@ std::string truth_value(bool value) { return value ? "true" : "false"; }
 
 std::vector<FitKey> all_keys() {
   const FitSpec fit;
-  const Noise::Spec noise;
+  const NoiseSpec noise;
   const UncertaintySpec uncertainty;
   return {
       {"", "dataset", "", "dataset folder, or a list of folders that are fitted together"},
@@ -132,14 +132,14 @@ constexpr double largest_law_error = 0.5;
 constexpr double least_separation = 5e-11;
 constexpr double largest_separation = 1e-7;
 
-void read_variance(const TomlReader& reader, const toml::node& node, Noise::Spec& spec) {
+void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& spec) {
   std::vector<std::string> names = all_names<VarianceFunction>();
   names.insert(names.begin(), "auto");
   spec.variance =
       value_named<VarianceFunction>(reader.one_of(node, "variance", "variance function", names));
 }
 
-void read_residuals(const TomlReader& reader, const toml::table& table, Noise::Spec& spec) {
+void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
   if (const toml::node* node = table.get("residuals")) {
     spec.student = reader.one_of(*node, "residuals", "distribution of the residuals",
                                  {"normal", "student"}) == "student";
@@ -156,7 +156,7 @@ void read_residuals(const TomlReader& reader, const toml::table& table, Noise::S
 }
 
 /// `setting_sd`: a number, or "estimated".
-void read_setting_sd(const TomlReader& reader, const toml::table& table, Noise::Spec& spec) {
+void read_setting_sd(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
   const toml::node* const node = table.get("setting_sd");
   if (node == nullptr) return;
   if (node->is_string()) {
@@ -193,9 +193,9 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
 }
 
 /// The `[noise]` table.
-Noise::Spec read_noise_spec(const TomlReader& reader, const toml::table& table) {
+NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
   reader.allow_only(table, "[noise]", fit_keys_of("noise"));
-  Noise::Spec spec;
+  NoiseSpec spec;
   if (const toml::node* node = table.get("variance")) read_variance(reader, *node, spec);
   read_residuals(reader, table, spec);
   read_setting_sd(reader, table, spec);

@@ -109,7 +109,7 @@ struct FitSpec {
                             ///< spheres of a point have its diameter
   /// All of `parameters_with(mechanisms, adhesion)`, in that order.
   std::vector<ParameterSpec> parameters;
-  Noise::Spec noise;
+  NoiseSpec noise;
   Location variance_place;  ///< place of the variance function in the file, for messages
   UncertaintySpec uncertainty;
   double law_error = 0.1;  ///< `[diagnosis]`: relative, smooth error of the law of a mechanism [1]

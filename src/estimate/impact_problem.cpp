@@ -8,7 +8,7 @@
 #include "core/interrupt.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -18,7 +18,7 @@ double stated_constant(const ImpactModel& model, const Observations& data, std::
 }
 
 /// Fills the last rows of residuals and Jacobian, one for each uncertain constant.
-void add_constants_rows(const ImpactModel& model, const Observations& data,
+void add_constants_rows(const ImpactModel& model, const Observations& data, double weight,
                         std::span<const double> theta, std::span<double> residuals,
                         std::span<double> jacobian) {
   const std::size_t p = theta.size();
@@ -26,12 +26,11 @@ void add_constants_rows(const ImpactModel& model, const Observations& data,
     const std::size_t row = data.points.size() + k;
     const std::size_t slot = model.first_constant() + k;
     const UncertainConstant& constant = model.constants[k];
-    residuals[row] =
-        data.constants_weight * constant.deviation(theta[slot], stated_constant(model, data, k));
+    residuals[row] = weight * constant.deviation(theta[slot], stated_constant(model, data, k));
     if (jacobian.empty()) continue;
     const std::span<double> slopes = jacobian.subspan(row * p, p);
     std::fill(slopes.begin(), slopes.end(), 0.0);
-    slopes[slot] = data.constants_weight * constant.deviation_slope(theta[slot]);
+    slopes[slot] = weight * constant.deviation_slope(theta[slot]);
   }
 }
 
@@ -48,7 +47,8 @@ std::vector<double> constant_deviations(const ImpactModel& model, const Observat
 }
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
-                                   long* handovers, std::shared_ptr<PointPredictor> points) {
+                                   const Weights& weights, long* handovers,
+                                   std::shared_ptr<PointPredictor> points) {
   LeastSquaresProblem problem;
   problem.residual_count = data.points.size() + model.constants.size();
   for (const ParameterSlot& slot : model.slots) {
@@ -66,10 +66,10 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   }
   const auto predictor =
       points ? std::move(points) : std::make_shared<PointPredictor>(model, data.conditions());
-  const auto settings = std::make_shared<const SharedSettings>(data.points);
-  problem.evaluate = [predictor, settings, &model, &data, handovers](std::span<const double> theta,
-                                                                     std::span<double> residuals,
-                                                                     std::span<double> jacobian) {
+  const auto shared = std::make_shared<const SharedErrors>(data, weights);
+  problem.evaluate = [predictor, shared, &model, &data, &weights, handovers](
+                         std::span<const double> theta, std::span<double> residuals,
+                         std::span<double> jacobian) {
     if (called_off()) return false;  // the minimiser ends; its caller then checks for the interrupt
     const std::size_t p = theta.size();
     std::atomic<bool> answered = true;
@@ -80,8 +80,8 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
           answered = false;
           return;
         }
-        const WeightedResidual r =
-            weighted_residual(data.points[i], answers[k].restitution_squared, data.noise.student);
+        const WeightedResidual r = weighted_residual(
+            data.points[i], weights.points[i], answers[k].restitution_squared, data.noise.student);
         residuals[i] = r.value;
         if (jacobian.empty()) continue;
         predictor->gradient_row(i, answers[k], r.slope, jacobian.subspan(i * p, p));
@@ -90,9 +90,11 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     const long handed_over = predictor->evaluate_blocks(theta, !jacobian.empty(), take);
     if (handovers != nullptr) *handovers += handed_over;
     if (!answered) return false;
-    settings->whiten(residuals);
-    if (!jacobian.empty()) settings->whiten(jacobian, p);
-    if (!model.constants.empty()) add_constants_rows(model, data, theta, residuals, jacobian);
+    shared->whiten(residuals);
+    if (!jacobian.empty()) shared->whiten(jacobian, p);
+    if (!model.constants.empty()) {
+      add_constants_rows(model, data, weights.noise.constants_weight, theta, residuals, jacobian);
+    }
     return true;
   };
   return problem;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "estimate/reweighting.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/setting_error.hpp"
 
 namespace recoil {
 namespace {
@@ -31,17 +31,18 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       result.noise_verdict == NoiseVerdict::exceeded) {
     result.noise_scale = misfit.scale();
   }
-  const double least = std::max(result.data.noise.scale, result.data.noise.rounding_sd);
+  const StatedNoise& stated = result.data.noise;
+  Noise& noise = result.weights.noise;
+  const double least = std::max(noise.scale, stated.rounding_sd);
   const bool scatters = least * result.noise_scale > least_noise;
   if (result.noise_verdict == NoiseVerdict::estimated) {
-    result.noise_scale = std::max(
-        result.noise_scale, std::min(1.0, result.data.noise.rounding_sd / result.data.noise.scale));
+    result.noise_scale =
+        std::max(result.noise_scale, std::min(1.0, stated.rounding_sd / noise.scale));
     // The degrees of freedom by which the points determine the constants do not determine the
     // noise.
     result.dof -= static_cast<int>(std::lround(misfit.learned));
   }
-  Noise& noise = result.data.noise;
-  noise.known = result.data.noise.sd_stated || (result.dof > 0 && scatters);
+  noise.known = stated.sd_stated || (result.dof > 0 && scatters);
   if (!noise.known) {
     result.noise_scale = 1.0;
     result.noise_verdict = NoiseVerdict::unchecked;
@@ -51,7 +52,7 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       result.quantile_dof = dof;
     }
   };
-  if (!result.data.noise.sd_stated) known_by(result.dof);
+  if (!stated.sd_stated) known_by(result.dof);
   if (noise.event_spread > 0.0) {
     // Degrees of freedom of the spread of the impacts: those in the range where some spheres stick
     // count, and single impacts in proportion to the part of their variance that comes from the
@@ -62,13 +63,13 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       const Observation& point = result.data.points[i];
       if (point.events > 1 || point.censored) {
         impacts += among[i] ? point.events : 0;
-      } else if (point.weights.scatter > 0.0) {
-        impacts += std::pow(1.0 - std::pow(point.weights.sd / point.weights.mean_sd, 2), 2);
+      } else if (const PointWeights& own = result.weights.points[i]; own.scatter > 0.0) {
+        impacts += std::pow(1.0 - std::pow(own.sd / own.mean_sd, 2), 2);
       }
     }
     known_by(std::max(1, static_cast<int>(impacts) - 1));
   }
-  if (result.data.noise.setting_sd_estimated) {
+  if (stated.setting_sd_estimated) {
     known_by(spare_settings(result.data, result.model.free_count()));
   }
 }

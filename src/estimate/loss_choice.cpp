@@ -5,7 +5,7 @@
 
 #include "estimate/observations.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -31,11 +31,11 @@ constexpr double same_criterion = 0.01;
 }  // namespace
 
 double minus_two_log_likelihood(const FitResult& fitted) {
-  double sum = fitted.objective + SharedSettings(fitted.data.points).log_determinant();
+  double sum = fitted.objective + SharedErrors(fitted.data, fitted.weights).log_determinant();
   for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
     const double square = fitted.prediction_squared[i];
-    const double slope =
-        slope_in_restitution(weighted_residual(fitted.data.points[i], square), square);
+    const double slope = slope_in_restitution(
+        weighted_residual(fitted.data.points[i], fitted.weights.points[i], square), square);
     if (!fitted.data.points[i].censored && slope > 0.0) sum -= 2.0 * std::log(slope);
   }
   return sum;
@@ -60,7 +60,7 @@ LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
     const FitResult fitted = fit(model, data);
     if (!fitted.usable || !fitted.flat.empty()) continue;
-    if (!fitted.data.noise.known) return as_stated;  // the fit passes through all points
+    if (!fitted.weights.noise.known) return as_stated;  // the fit passes through all points
     const double k = model.free_count() + (data.noise.sd_stated ? 0 : 1);
     // The correction for few points; it is equal for laws with equally many parameters.
     const double correction = n > k + 1.0 ? 2.0 * k * (k + 1.0) / (n - k - 1.0) : 0.0;

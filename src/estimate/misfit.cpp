@@ -66,7 +66,7 @@ ConstantsInFit constants_in_fit(const LeastSquaresResult& run, std::size_t count
   return constants;
 }
 
-Misfit misfit(const Observations& data, std::span<const double> residuals,
+Misfit misfit(const Observations& data, const Weights& weights, std::span<const double> residuals,
               std::span<const double> predicted, int free_count, const ConstantsInFit& constants) {
   Misfit result;
   const std::optional<StudentNoise>& student = data.noise.student;
@@ -79,8 +79,9 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
     // determines a sign, not a value, and is no degree of freedom of the noise.
     if (point.informs(predicted[i])) ++informative;
     double r = student ? student->original(residuals[i]) : residuals[i];
-    if (!data.noise.sd_stated && point.weights.scatter > 0.0) {
-      r = (point.restitution - expected_restitution(point, predicted[i])) / point.weights.mean_sd;
+    const PointWeights& own = weights.points[i];
+    if (!data.noise.sd_stated && own.scatter > 0.0) {
+      r = (point.restitution - expected_restitution(point, own, predicted[i])) / own.mean_sd;
     }
     if (student) {
       plain.push_back(r);

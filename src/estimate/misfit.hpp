@@ -7,6 +7,7 @@
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 
@@ -40,7 +41,7 @@ struct ConstantsInFit {
 };
 
 /// @param run a fit whose last residuals are those of `count` constants that it moved
-/// @param weight their weight, Observations::constants_weight
+/// @param weight their weight, Noise::constants_weight
 ConstantsInFit constants_in_fit(const LeastSquaresResult& run, std::size_t count, double weight);
 
 /// The distance of the points from a fit, in the measure of their distribution.
@@ -67,7 +68,7 @@ struct Misfit {
 
 /// @param residuals values of `weighted_residual` [points]
 /// @param predicted predicted e^2 [points]
-Misfit misfit(const Observations& data, std::span<const double> residuals,
+Misfit misfit(const Observations& data, const Weights& weights, std::span<const double> residuals,
               std::span<const double> predicted, int free_count,
               const ConstantsInFit& constants = {});
 

@@ -1,8 +1,7 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
-
-#include "estimate/noise.hpp"
 
 namespace recoil {
 
@@ -17,17 +16,35 @@ struct PointConditions {
   static constexpr std::size_t no_series = static_cast<std::size_t>(-1);
 };
 
+/// The errors that a point shares with others, by number: points with the same number share one.
+struct SharedNumbers {
+  std::size_t setting = 0;         ///< setting of the apparatus
+  std::size_t batch = 0;           ///< spheres of one series
+  std::size_t launch = no_launch;  ///< successive bounces of one launch share instants
+  std::size_t bounce = 0;          ///< number of the bounce within the launch
+
+  /// No other point shares its instants.
+  static constexpr std::size_t no_launch = static_cast<std::size_t>(-1);
+};
+
+/// The stated standard deviations of the inputs of a point; 0: none.
+struct InputErrors {
+  double velocity_sd = 0.0;          ///< of V, independent from point to point [m/s]
+  double setting_velocity_sd = 0.0;  ///< of the error of V that its setting shares [m/s]
+  double diameter_sd = 0.0;          ///< of d, independent from point to point [m]
+  double series_diameter_sd = 0.0;   ///< of the error of d that its series shares [m]
+};
+
 /// The measured values of one point.
-struct MeasuredPoint {
+struct Observation : SharedNumbers, InputErrors {
   std::size_t dataset = 0;
   std::size_t series = 0;
-  std::size_t setting = 0;         ///< setting of the apparatus: its points share an error
-  std::size_t launch = no_launch;  ///< successive bounces of one launch share timing errors
-  std::size_t bounce = 0;          ///< number of the bounce within the launch
-  int line = 0;                    ///< line in the dataset's file of points
-  double diameter = 0.0;           ///< [m]
-  double velocity = 0.0;           ///< [m/s]
-  double restitution = 0.0;        ///< mean e of the impacts that rebounded [1]
+  int line = 0;              ///< line in the dataset's file of points
+  double diameter = 0.0;     ///< [m]
+  double velocity = 0.0;     ///< [m/s]
+  double restitution = 0.0;  ///< mean e of the impacts that rebounded [1]
+  /// Stated sd of that mean, or the one that `gather` assumes where others state theirs [1].
+  double sd = 0.0;
   /// No e is known: all spheres were captured, or rebounds were only counted.
   bool censored = false;
 
@@ -35,14 +52,6 @@ struct MeasuredPoint {
   int captured = 0;               ///< number of captured impacts
   bool counted = false;           ///< captures were counted, so `captured = 0` is a measurement
   bool rebound_measured = false;  ///< e is the quotient of two velocities: it shares the error of V
-  double velocity_sd = 0.0;       ///< sd of V [m/s]; 0: none
-  /// sd of the error of V that its setting shares [m/s]; 0: none.
-  double setting_velocity_sd = 0.0;
-  double diameter_sd = 0.0;         ///< sd of d [m]; 0: none
-  double series_diameter_sd = 0.0;  ///< sd of the error of d that its series shares [m]; 0: none
-
-  /// No other point shares its timing errors.
-  static constexpr std::size_t no_launch = static_cast<std::size_t>(-1);
 
   int rebounds() const { return events - captured; }
   /// Does this point have both rebounds and captures?
@@ -50,21 +59,17 @@ struct MeasuredPoint {
   /// Did spheres rebound with unknown e?
   bool counts_only() const { return censored && captured < events; }
   PointConditions conditions() const { return {dataset, diameter, velocity, series}; }
-};
-
-/// A measured point with its weights.
-struct Observation : MeasuredPoint {
-  PointWeights weights;
-
-  /// Does the deviance have a minimum, `peak`? Counts with all or no impacts captured have none.
-  bool peaks() const { return weights.scatter > 0.0 && (!censored || mixed()); }
+  /// Number of impacts over which an error is averaged: rebounds, or all if no e is known.
+  int averaged() const { return censored ? events : rebounds(); }
   /// Does the point carry more information than that `predicted` e^2 has the right sign?
   bool informs(double predicted) const {
     return !censored || mixed() || (captured > 0) == (predicted > 0.0);
   }
-  /// Standard deviation of the e of a single impact [1], if `weights.sd` is that of the mean of n
+  /// Standard deviation of the e of a single impact [1], if `of_mean` is that of the mean of n
   /// independent impacts.
-  double event_sd() const;
+  double event_sd(double of_mean) const {
+    return of_mean * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
+  }
 };
 
 }  // namespace recoil

@@ -11,14 +11,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {
-
-/// Initial standard deviation of every impact if none is stated; only ratios matter until the scale
-/// is estimated from the residuals.
-constexpr double nominal_sd = 0.02;
 
 bool has_column(const Dataset& dataset, const std::string& name) {
   return std::any_of(dataset.columns.begin(), dataset.columns.end(),
@@ -26,14 +21,14 @@ bool has_column(const Dataset& dataset, const std::string& name) {
 }
 
 Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint& p,
-                    const Noise::Spec& spec) {
+                    const NoiseSpec& spec) {
   Observation point;
   point.dataset = index;
   point.series = p.series;
   point.diameter = p.diameter;
   point.velocity = p.incident_velocity;
   point.restitution = p.restitution;
-  point.weights.sd = p.restitution_sd.value_or(0.0);
+  point.sd = p.restitution_sd.value_or(0.0);
   point.censored = p.all_captured() || p.counts_only;
   point.events = p.events;
   point.captured = p.captured;
@@ -89,11 +84,9 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
 
 /// Finds successive bounces of a launch that state their errors: V of each equals the rebound
 /// velocity of the one before, up to the drag of the air.
-/// @return whether there are any
-bool number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
+void number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
   constexpr double drag = 0.02;  // largest relative loss of speed in flight
   std::size_t launches = 0;
-  bool any = false;
   std::size_t first = 0;
   for (const Dataset& dataset : datasets) {
     std::map<std::string_view, std::size_t> last;  // previous point of each launch
@@ -109,26 +102,11 @@ bool number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
           if (previous.launch == Observation::no_launch) previous.launch = launches++;
           point.launch = previous.launch;
           point.bounce = previous.bounce + 1;
-          any = true;
         }
       }
       last[p.launch] = k;
     }
     first += dataset.points.size();
-  }
-  return any;
-}
-
-/// Initial sd of e^2 from impact to impact if only counts are known: d e^2 / d ln V is about 2 at
-/// capture, and capture velocities typically scatter by a tenth.
-constexpr double first_scatter = 0.2;
-
-void begin_counts(std::vector<Observation>& points) {
-  for (Observation& point : points) {
-    if (!point.counts_only()) continue;
-    point.weights.scatter = first_scatter;
-    point.weights.mean_sd = point.weights.sd;
-    if (point.peaks()) locate_peak(point);
   }
 }
 
@@ -137,29 +115,24 @@ void begin_counts(std::vector<Observation>& points) {
 void complete_sd(std::vector<Observation>& points) {
   std::vector<double> known;
   for (const Observation& point : points) {
-    if (point.weights.sd > 0.0) known.push_back(point.event_sd());
+    if (point.sd > 0.0) known.push_back(point.event_sd(point.sd));
   }
   std::sort(known.begin(), known.end());
   const double middle = known.empty() ? nominal_sd : known[known.size() / 2];
   for (Observation& point : points) {
-    if (point.weights.sd > 0.0) continue;
-    const int impacts = point.censored ? point.events : point.rebounds();
-    point.weights.sd = middle / std::sqrt(static_cast<double>(impacts));
+    if (!(point.sd > 0.0)) point.sd = middle / std::sqrt(static_cast<double>(point.averaged()));
   }
 }
 
-void weigh_equally(std::vector<Observation>& points) {
+/// Numbers the series of all datasets: the spheres of one may share an error of their size.
+void number_batches(std::vector<Observation>& points) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers;
   for (Observation& point : points) {
-    point.weights.sd =
-        nominal_sd / std::sqrt(std::max(1, point.censored ? point.events : point.rebounds()));
+    point.batch = numbers.try_emplace({point.dataset, point.series}, numbers.size()).first->second;
   }
 }
 
 }  // namespace
-
-double Observation::event_sd() const {
-  return weights.sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
-}
 
 std::vector<bool> among_captures(const std::vector<Observation>& points) {
   struct Overlap {
@@ -209,17 +182,26 @@ std::vector<PointConditions> Observations::conditions() const {
   return all;
 }
 
+bool Observations::share(SharedBy way) const {
+  return std::any_of(sources.begin(), sources.end(),
+                     [way](const ErrorSource* source) { return source->shared == way; });
+}
+
+bool Observations::share_errors() const {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const ErrorSource* source) { return source->shared != SharedBy::nobody; });
+}
+
 bool Observations::weights_depend_on_fit() const {
-  return !noise.sd_stated || noise.shares_errors() ||
+  return !noise.sd_stated || !sources.empty() ||
          std::any_of(points.begin(), points.end(), [](const Observation& point) {
-           return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
-                  point.weights.scatter > 0.0 || point.captured > 0;
+           return point.captured > 0 || point.counts_only();
          });
 }
 
 namespace {
 
-/// `Noise::rounding_sd` of the dataset with the coarsest rounding. Quotients of rounded
+/// `StatedNoise::rounding_sd` of the dataset with the coarsest rounding. Quotients of rounded
 /// velocities have no common step.
 double rounding_sd_of(const std::vector<Dataset>& datasets) {
   double coarsest = 0.0;
@@ -239,7 +221,7 @@ double rounding_sd_of(const std::vector<Dataset>& datasets) {
 
 }  // namespace
 
-Observations gather(const std::vector<Dataset>& datasets, const Noise::Spec& spec,
+Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
                     const Location& variance_place) {
   Observations data;
   data.noise.spec = spec;
@@ -261,19 +243,10 @@ Observations gather(const std::vector<Dataset>& datasets, const Noise::Spec& spe
     }
   }
   const bool several = number_settings(datasets, data);
-  for (const Observation& point : data.points) {
-    data.noise.setting_velocity_stated |= point.setting_velocity_sd > 0.0;
-    data.noise.series_diameter_stated |= point.series_diameter_sd > 0.0;
-  }
-  if ((data.noise.setting_velocity_stated || data.noise.series_diameter_stated) && spec.student) {
-    throw InputError({},
-                     fmt::format("residuals = \"student\" beside {}",
-                                 data.noise.setting_velocity_stated ? "setting_velocity_sd"
-                                                                    : "series_diameter_sd"),
-                     "errors that points share are normal", "leave out one of them");
-  }
-  data.noise.setting_sd_estimated = several && !spec.setting_sd && !spec.student &&
-                                    (spec.every_setting || !data.noise.setting_velocity_stated);
+  number_batches(data.points);
+  const bool velocity_shared = setting_velocity_error().acts(data);
+  data.noise.setting_sd_estimated =
+      several && !spec.setting_sd && !spec.student && (spec.every_setting || !velocity_shared);
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
         variance_place,
@@ -286,16 +259,21 @@ Observations gather(const std::vector<Dataset>& datasets, const Noise::Spec& spe
       spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
   if (data.noise.sd_stated) {
     data.noise.sd_missing = stated > 0 ? missing : 0;
-    if (!spec.student) data.noise.shares_instants = number_bounces(datasets, data);
+    if (!spec.student) number_bounces(datasets, data);
     complete_sd(data.points);
-    begin_counts(data.points);
-    return data;
+  } else {
+    data.noise.sd_set_aside = stated;
   }
-  weigh_equally(data.points);
-  begin_counts(data.points);
-  data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
-  data.noise.scale = nominal_sd;
-  data.noise.sd_set_aside = stated;
+  for (const ErrorSource* source : error_sources()) {
+    if (source->acts(data)) data.sources.push_back(source);
+  }
+  for (const ErrorSource* source : data.sources) {
+    if (spec.student && source->shared != SharedBy::nobody) {
+      throw InputError({},
+                       fmt::format("residuals = \"student\" beside {}", source->names.stated_by),
+                       "errors that points share are normal", "leave out one of them");
+    }
+  }
   return data;
 }
 

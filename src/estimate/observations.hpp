@@ -6,27 +6,32 @@
 
 #include "core/error.hpp"
 #include "data/dataset.hpp"
+#include "estimate/error_source.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/observation.hpp"
 
 namespace recoil {
 
-/// All points of all datasets of a fit, with their weights.
+/// All points of all datasets of a fit, and what is stated about their errors. They do not change
+/// after loading: a fit and a replicate have their own copy or their own `Weights`.
 struct Observations {
   std::vector<Observation> points;
-  Noise noise;
+  StatedNoise noise;
+  std::vector<const ErrorSource*> sources;  ///< those of `error_sources` that act on the points
   /// The observed values of ImpactModel::constants: empty for the stated ones, redrawn in a
   /// bootstrap replicate.
   std::vector<double> constants;
-  /// Weight of their deviations relative to the residuals of the points: noise_scale of the fit, so
-  /// that they keep their own errors if those of the points are widened.
-  double constants_weight = 1.0;
 
   /// The conditions of every point.
   std::vector<PointConditions> conditions() const;
 
-  /// The points `indices` in that order, under the same noise, constants and weights.
+  /// The points `indices` in that order, under the same noise and constants.
   Observations subset(std::span<const std::size_t> indices) const;
+
+  /// Do points share an error in this way?
+  bool share(SharedBy way) const;
+  /// Do points share any error?
+  bool share_errors() const;
 
   /// Do the weights depend on the parameters, so that `reweighted_fit` is needed?
   bool weights_depend_on_fit() const;
@@ -39,11 +44,10 @@ struct Observations {
 /// if there is one: the scatter of e next to the gap then shows how much impacts differ. [points]
 std::vector<bool> among_captures(const std::vector<Observation>& points);
 
-/// Collects the points of all datasets. If the standard deviations are not stated (or not used),
-/// the weights are a first guess, constant for every impact.
+/// Collects the points of all datasets.
 /// @param variance_place place of the variance function in the fit file, for the message
 /// @throws InputError if `spec` requires stated standard deviations and a point has none
-Observations gather(const std::vector<Dataset>& datasets, const Noise::Spec& spec = {},
+Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec = {},
                     const Location& variance_place = {});
 
 /// The same with the noise of a fit file.

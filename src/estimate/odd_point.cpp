@@ -21,7 +21,7 @@ std::optional<OddPoint> odd_point(const FitResult& fitted) {
   gsl_errors_are_values();
   const bool stated = fitted.data.noise.sd_stated;
   const std::size_t n = fitted.data.points.size();
-  if (!fitted.usable || !fitted.data.noise.known || fitted.data.noise.student) return {};
+  if (!fitted.usable || !fitted.weights.noise.known || fitted.data.noise.student) return {};
   if (fitted.dof < 3 || (stated && fitted.p_value >= rejected)) return {};
   const double square = std::inner_product(fitted.residuals.begin(), fitted.residuals.end(),
                                            fitted.residuals.begin(), 0.0);
@@ -48,6 +48,7 @@ std::optional<OddPoint> odd_point(const FitResult& fitted) {
   FitOptions options;
   options.several_starts = false;
   options.start = fitted.theta;
+  options.noise = fitted.weights.noise;
   odd.without = fit(fitted.model, fitted.data.subset(others), options);
   if (!odd.without.usable || (stated && odd.without.p_value < rejected)) return {};
   return odd;

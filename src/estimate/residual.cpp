@@ -143,22 +143,21 @@ struct CaptureSpread {
   double scale;   ///< sd of e^2, both parts
   double weight;  ///< effective number of independent impacts over their number
 };
-CaptureSpread capture_spread(const Observation& point) {
+CaptureSpread capture_spread(const Observation& point, const PointWeights& weights) {
   const double n = point.events;
-  const double shared = point.weights.input_sd * point.weights.input_sd;
-  if (!(point.weights.scatter > 0.0))
-    return {std::sqrt(2.0 * std::pow(point.weights.sd, 4) + shared), 1.0 / n};
-  const double own = point.weights.scatter;
+  const double shared = weights.input_sd * weights.input_sd;
+  if (!(weights.scatter > 0.0)) return {std::sqrt(2.0 * std::pow(weights.sd, 4) + shared), 1.0 / n};
+  const double own = weights.scatter;
   const double square = own * own + shared;
   return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
 }
 
 /// Residual of a point with all or no impacts captured.
-WeightedResidual tobit_residual(const Observation& point, double m) {
-  CaptureSpread spread = capture_spread(point);
+WeightedResidual tobit_residual(const Observation& point, const PointWeights& weights, double m) {
+  CaptureSpread spread = capture_spread(point, weights);
   if (point.captured == 0) spread.scale = -spread.scale;
   const double n = spread.weight * point.events;
-  const NormalTails tails = normal_tails((m + point.weights.shift) / spread.scale, true);
+  const NormalTails tails = normal_tails((m + weights.shift) / spread.scale, true);
   const double deviance = -2.0 * n * tails.log_above;
   if (deviance < 1e-280) return {0.0, 0.0};
   const double value = std::sqrt(deviance);
@@ -173,18 +172,19 @@ struct Deviance {
 
 /// The deviance D of a point with scatter, and its derivatives in m.
 /// @param slope_only the value is not needed
-Deviance event_deviance(const Observation& point, double m, bool slope_only) {
-  const double x = m + point.weights.shift;
+Deviance event_deviance(const Observation& point, const PointWeights& weights, double m,
+                        bool slope_only) {
+  const double x = m + weights.shift;
   Deviance d{0.0, 0.0, 0.0};
   if (!point.censored) {
-    const RootMoments root = root_of_positive_normal(x / point.weights.scatter);
-    const double unit = std::sqrt(point.weights.scatter);
-    const double r = (point.restitution - unit * root.mean) / point.weights.mean_sd;
-    const double r_slope = -root.slope / (unit * point.weights.mean_sd);
+    const RootMoments root = root_of_positive_normal(x / weights.scatter);
+    const double unit = std::sqrt(weights.scatter);
+    const double r = (point.restitution - unit * root.mean) / weights.mean_sd;
+    const double r_slope = -root.slope / (unit * weights.mean_sd);
     d = {r * r, 2.0 * r * r_slope, 2.0 * r_slope * r_slope};
   }
   if (!point.counted) return d;
-  const CaptureSpread spread = capture_spread(point);
+  const CaptureSpread spread = capture_spread(point, weights);
   const double z = x / spread.scale;
   constexpr double none_sticks = 9.0;  // Phi(-9) = 1e-19 changes no digit
   if (point.captured == 0 && z > none_sticks) return d;
@@ -199,8 +199,8 @@ Deviance event_deviance(const Observation& point, double m, bool slope_only) {
   return d;
 }
 
-WeightedResidual event_residual(const Observation& point, double m) {
-  const DeviancePeak& peak = point.weights.peak;
+WeightedResidual event_residual(const Observation& point, const PointWeights& weights, double m) {
+  const DeviancePeak& peak = weights.peak;
   const double away = m - peak.at;
   const double unit = std::sqrt(0.5 * peak.curvature);
   constexpr double close = 1e-3;
@@ -209,13 +209,13 @@ WeightedResidual event_residual(const Observation& point, double m) {
     const double skew = peak.third / (3.0 * peak.curvature);
     return {-unit * away * (1.0 + 0.5 * skew * away), -unit * (1.0 + skew * away)};
   }
-  const Deviance d = event_deviance(point, m, false);
+  const Deviance d = event_deviance(point, weights, m, false);
   const double value = std::copysign(std::sqrt(std::max(0.0, d.value - peak.deviance)), -away);
   return {value, d.slope / (2.0 * value)};
 }
 
-WeightedResidual mean_residual(const Observation& point, double m) {
-  const double variance = point.weights.sd * point.weights.sd;
+WeightedResidual mean_residual(const Observation& point, const PointWeights& weights, double m) {
+  const double variance = weights.sd * weights.sd;
   const double y = point.restitution * point.restitution - variance;
   const double hypotenuse = std::sqrt(m * m + variance * variance);
   // For m far below zero, m + hypotenuse cancels; the conjugate form does not.
@@ -224,15 +224,15 @@ WeightedResidual mean_residual(const Observation& point, double m) {
   const double psi = std::sqrt(psi_squared);
   const double psi_slope = psi / (2.0 * hypotenuse);  // d psi / d m
   const double sum = point.restitution + psi;
-  const double width = std::sqrt(variance * (sum * sum + 2.0 * variance) +
-                                 point.weights.input_sd * point.weights.input_sd);
+  const double width =
+      std::sqrt(variance * (sum * sum + 2.0 * variance) + weights.input_sd * weights.input_sd);
   const double width_slope = variance * sum * psi_slope / width;
   return {(y - m) / width, (-1.0 - (y - m) / width * width_slope) / width};
 }
 
-WeightedResidual normal_residual(const Observation& point, double m) {
-  if (point.peaks()) return event_residual(point, m);
-  return point.censored ? tobit_residual(point, m) : mean_residual(point, m);
+WeightedResidual normal_residual(const Observation& point, const PointWeights& weights, double m) {
+  if (weights.peaks(point)) return event_residual(point, weights, m);
+  return point.censored ? tobit_residual(point, weights, m) : mean_residual(point, weights, m);
 }
 
 /// The smallest k with P(captured <= k) >= `uniform` among `n` impacts.
@@ -264,36 +264,36 @@ RootMoments root_of_positive_normal(double u) {
   return moments;
 }
 
-WeightedResidual weighted_residual(const Observation& point, double m,
+WeightedResidual weighted_residual(const Observation& point, const PointWeights& weights, double m,
                                    const std::optional<StudentNoise>& student) {
-  const WeightedResidual r = normal_residual(point, m);
+  const WeightedResidual r = normal_residual(point, weights, m);
   return student ? student->transformed(r) : r;
 }
 
-double event_deviance(const Observation& point, double m) {
-  return event_deviance(point, m, false).value;
+double event_deviance(const Observation& point, const PointWeights& weights, double m) {
+  return event_deviance(point, weights, m, false).value;
 }
 
-void locate_peak(Observation& point) {
+void locate_peak(const Observation& point, PointWeights& weights) {
+  if (!weights.peaks(point)) return;
   // D decreases where all impacts would be captured and increases far above the measured mean.
-  const double reach =
-      10.0 * (point.weights.scatter + point.weights.input_sd + point.weights.mean_sd);
-  double low = -point.weights.shift - reach;
-  double high = point.restitution * point.restitution - point.weights.shift + reach;
-  DeviancePeak& peak = point.weights.peak;
+  const double reach = 10.0 * (weights.scatter + weights.input_sd + weights.mean_sd);
+  double low = -weights.shift - reach;
+  double high = point.restitution * point.restitution - weights.shift + reach;
+  DeviancePeak& peak = weights.peak;
   // Newton's method from the peak of the round before, then secants, and bisection if these are
   // slow. Written here because it runs for every point in every round of every replicate. The error
   // after a secant step is about the product of the two errors before it.
   constexpr int most_steps = 200;
   const double close_enough = 1e-13 * reach;
-  const double h = 1e-3 * std::min(point.weights.scatter,
-                                   std::max(point.weights.mean_sd, 1e-3 * point.weights.scatter));
+  const double h =
+      1e-3 * std::min(weights.scatter, std::max(weights.mean_sd, 1e-3 * weights.scatter));
   const double last_step = std::max(close_enough, 1e-4 * h);
   if (!(peak.at > low && peak.at < high)) peak.at = 0.5 * (low + high);
   double before = 0.0;
   double slope_before = 0.0;
   for (int i = 0; i < most_steps && high - low > close_enough; ++i) {
-    const Deviance d = event_deviance(point, peak.at, true);
+    const Deviance d = event_deviance(point, weights, peak.at, true);
     if (d.slope == 0.0) break;
     (d.slope < 0.0 ? low : high) = peak.at;
     const double bend = i == 0 ? d.curvature : (d.slope - slope_before) / (peak.at - before);
@@ -304,47 +304,51 @@ void locate_peak(Observation& point) {
     peak.at = halve ? 0.5 * (low + high) : guess;
     if (std::abs(peak.at - before) < (halve || i == 0 ? close_enough : last_step)) break;
   }
-  peak.deviance = event_deviance(point, peak.at);
-  const auto slope = [&](double m) { return event_deviance(point, m, true).slope; };
+  peak.deviance = event_deviance(point, weights, peak.at);
+  const auto slope = [&](double m) { return event_deviance(point, weights, m, true).slope; };
   const double more = slope(peak.at + h);
   const double less = slope(peak.at - h);
   peak.curvature = (more - less) / (2.0 * h);
   peak.third = (more + less) / (h * h);  // the slope at the peak is 0
 }
 
-double survivors_sd(const Observation& point, double m) {
-  if (point.censored) return point.weights.sd;
-  const double variance =
-      root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).variance;
-  const double of_scatter = std::sqrt(point.weights.scatter * variance / point.rebounds());
-  const double sd = point.weights.sd;
+double survivors_sd(const Observation& point, const PointWeights& weights, double m) {
+  if (point.censored) return weights.sd;
+  const double variance = root_of_positive_normal((m + weights.shift) / weights.scatter).variance;
+  const double of_scatter = std::sqrt(weights.scatter * variance / point.rebounds());
+  const double sd = weights.sd;
   return point.rebounds() == 1 ? std::sqrt(sd * sd + of_scatter * of_scatter)
                                : std::max(sd, of_scatter);
 }
 
-double expected_restitution(const Observation& point, double m) {
-  if (point.censored || !(point.weights.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
-  return std::sqrt(point.weights.scatter) *
-         root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).mean;
+double expected_restitution(const Observation& point, const PointWeights& weights, double m) {
+  if (point.censored || !(weights.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
+  return std::sqrt(weights.scatter) *
+         root_of_positive_normal((m + weights.shift) / weights.scatter).mean;
 }
 
-Observation redraw_captures(const Observation& point, double restitution_squared, double uniform) {
-  const double u = (restitution_squared + point.weights.shift) / point.weights.scatter;
-  Observation drawn = point;
+double slope_in_restitution(const WeightedResidual& residual, double restitution_squared) {
+  return std::abs(residual.slope) * 2.0 * std::sqrt(std::max(restitution_squared, 0.0));
+}
+
+DrawnPoint redraw_captures(const Observation& point, const PointWeights& weights,
+                           double restitution_squared, double uniform) {
+  const double u = (restitution_squared + weights.shift) / weights.scatter;
+  DrawnPoint drawn{point, weights};
+  Observation& own = drawn.point;
   // If captures were not counted, the point is a mean of rebounds without a count to draw.
-  drawn.captured =
+  own.captured =
       point.counted ? binomial_quantile(uniform, gsl_cdf_ugaussian_Q(u), point.events) : 0;
-  drawn.censored = point.counts_only() || drawn.rebounds() == 0;
-  drawn.weights.sd =
-      point.event_sd() /
-      std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));
+  own.censored = point.counts_only() || own.rebounds() == 0;
+  own.sd = point.event_sd(weights.sd) / std::sqrt(static_cast<double>(own.averaged()));
+  drawn.weights.sd = own.sd;
   return drawn;
 }
 
-Observation simulate_observation(const Observation& point, double restitution_squared,
-                                 double noise_scale, const std::optional<StudentNoise>& student,
-                                 RandomStream& random) {
-  const double common = point.weights.input_sd * random.normal();
+DrawnPoint simulate_observation(const Observation& point, const PointWeights& weights,
+                                double restitution_squared, double noise_scale,
+                                const std::optional<StudentNoise>& student, RandomStream& random) {
+  const double common = weights.input_sd * random.normal();
   const double uniform = random.uniform();
   const double normal = random.normal();
   const double noise =
@@ -352,18 +356,18 @@ Observation simulate_observation(const Observation& point, double restitution_sq
       (student ? student->core * gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(normal), student->dof)
                : normal);
   const double m = restitution_squared + common;
-  Observation drawn = point;
-  if (!(point.weights.scatter > 0.0)) {
+  if (!(weights.scatter > 0.0)) {
+    DrawnPoint drawn{point, weights};
     if (!point.censored) {
-      drawn.restitution = std::max(0.0, std::sqrt(std::max(m, 0.0)) + point.weights.sd * noise);
+      drawn.point.restitution = std::max(0.0, std::sqrt(std::max(m, 0.0)) + weights.sd * noise);
     }
     return drawn;
   }
-  drawn = redraw_captures(point, m, uniform);
-  drawn.restitution =
-      drawn.censored
-          ? 0.0
-          : std::max(0.0, expected_restitution(drawn, m) + survivors_sd(drawn, m) * noise);
+  DrawnPoint drawn = redraw_captures(point, weights, m, uniform);
+  drawn.point.restitution =
+      drawn.point.censored ? 0.0
+                           : std::max(0.0, expected_restitution(drawn.point, drawn.weights, m) +
+                                               survivors_sd(drawn.point, drawn.weights, m) * noise);
   return drawn;
 }
 

@@ -5,6 +5,7 @@
 #include "core/random.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/student.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 
@@ -52,35 +53,44 @@ RootMoments root_of_positive_normal(double u);
 /// capture. The counts are omitted if captures were not counted, the mean if only counts are known.
 ///
 /// Student's t (`student`): r becomes sign(r) c sqrt((nu + 1) ln(1 + r^2 / nu)), see StudentNoise.
-WeightedResidual weighted_residual(const Observation& point, double restitution_squared,
+WeightedResidual weighted_residual(const Observation& point, const PointWeights& weights,
+                                   double restitution_squared,
                                    const std::optional<StudentNoise>& student = std::nullopt);
 
-/// Computes `weights.peak` of a point with scatter, for its present weights.
-void locate_peak(Observation& point);
+/// |dr / de| of the residual r at predicted e^2 = `restitution_squared`.
+double slope_in_restitution(const WeightedResidual& residual, double restitution_squared);
+
+/// Computes the `peak` of a point for its present weights, if its deviance has a minimum.
+void locate_peak(const Observation& point, PointWeights& weights);
 
 /// The deviance of a point with scatter (see above), without constant terms.
-double event_deviance(const Observation& point, double restitution_squared);
+double event_deviance(const Observation& point, const PointWeights& weights,
+                      double restitution_squared);
 
 /// Standard deviation of the mean e of the survivors of a point with scatter [1]: the stated or
 /// estimated one, but at least the one that the scatter alone causes (a deviation that was computed
 /// from two or three survivors is unreliable). For a single survivor the sd is the reading error,
 /// and the scatter adds in quadrature.
-double survivors_sd(const Observation& point, double restitution_squared);
+double survivors_sd(const Observation& point, const PointWeights& weights,
+                    double restitution_squared);
 
 /// The expected mean e of the rebounds of this point if the model predicts `restitution_squared`:
 /// its square root, or the mean of the survivors [1].
-double expected_restitution(const Observation& point, double restitution_squared);
+double expected_restitution(const Observation& point, const PointWeights& weights,
+                            double restitution_squared);
+
+/// One point of a simulated data set, and the weights of the point from which it was drawn with the
+/// sd for its number of rebounds.
+struct DrawnPoint {
+  Observation point;
+  PointWeights weights;
+};
 
 /// Redraws the captures of a point with scatter as the binomial quantile of `uniform` if the true
 /// value is `restitution_squared`, and sets the sd for a mean of the remaining rebounds. The caller
 /// sets the mean.
-Observation redraw_captures(const Observation& point, double restitution_squared, double uniform);
-
-/// The noise scale of the independent error of a point: 0 for a bounce whose error
-/// `draw_setting_errors` draws.
-inline double own_noise_scale(const Observation& point, double noise_scale) {
-  return point.launch == Observation::no_launch ? noise_scale : 0.0;
-}
+DrawnPoint redraw_captures(const Observation& point, const PointWeights& weights,
+                           double restitution_squared, double uniform);
 
 /// Simulates a new measurement of a point under its noise model if the true value is
 /// `restitution_squared`:
@@ -90,10 +100,9 @@ inline double own_noise_scale(const Observation& point, double noise_scale) {
 ///   about its expectation, with the sd for their number; all impacts of a point may become
 ///   captured, or a captured point may rebound;
 /// - a captured point without scatter stays captured.
-/// Always draws three numbers from `random`. The weights of the result are those of `point`;
-/// `renew_weights` renews them.
-Observation simulate_observation(const Observation& point, double restitution_squared,
-                                 double noise_scale, const std::optional<StudentNoise>& student,
-                                 RandomStream& random);
+/// Always draws three numbers from `random`.
+DrawnPoint simulate_observation(const Observation& point, const PointWeights& weights,
+                                double restitution_squared, double noise_scale,
+                                const std::optional<StudentNoise>& student, RandomStream& random);
 
 }  // namespace recoil

@@ -11,7 +11,7 @@
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 
@@ -76,20 +76,19 @@ class Extrapolation {
 };
 
 /// -2 ln restricted likelihood up to a constant that the variance functions share.
-double restricted_criterion(const ImpactModel& model, const ReweightedFit& result) {
+double restricted_criterion(const ImpactModel& model, const Observations& data,
+                            const ReweightedFit& result) {
   const LeastSquaresResult& run = result.run;
-  const auto& points = result.data.points;
-  const std::optional<StudentNoise>& student = result.data.noise.student;
+  const std::optional<StudentNoise>& student = data.noise.student;
   const double unit = student ? student->calibration() : 1.0;
   double criterion =
-      run.sum_of_squares / unit + SharedSettings(result.data.points).log_determinant();
-  for (const Observation& point : points) {
-    if (point.censored) continue;
-    if (point.weights.scatter > 0.0)
-      // The residual holds only the deviance above the peak.
-      criterion += point.weights.peak.deviance;
-    criterion +=
-        2.0 * std::log(point.weights.scatter > 0.0 ? point.weights.mean_sd : point.weights.sd);
+      run.sum_of_squares / unit + SharedErrors(data, result.weights).log_determinant();
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const PointWeights& own = result.weights.points[i];
+    if (data.points[i].censored) continue;
+    // The residual holds only the deviance above the peak.
+    if (own.scatter > 0.0) criterion += own.peak.deviance;
+    criterion += 2.0 * std::log(own.scatter > 0.0 ? own.mean_sd : own.sd);
   }
   const std::size_t p = run.theta.size();
   std::vector<std::size_t> free;
@@ -112,46 +111,49 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
 }
 
 /// @param limit ends the rounds if the restricted criterion, at the best scale, exceeds it
-ReweightedFit reweight_with(const ImpactModel& model, Observations data,
+ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, const Noise& noise,
                             std::span<const double> start, const ReweightingOptions& options,
                             double limit = INFINITY) {
   ReweightedFit result;
-  result.data = std::move(data);
+  result.weights = first_weights(data, noise);
   std::vector<double> theta(start.begin(), start.end());
-  double& noise_scale = result.data.noise.scale;
   Extrapolation extrapolation;
   LeastSquaresOptions minimiser = options.minimiser;
   minimiser.finish = false;  // only after the last round
-  const auto points = std::make_shared<PointPredictor>(model, result.data.conditions());
+  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
   for (int round = 0; round < most_rounds; ++round) {
-    const auto predicted = renew_weights(model, theta, *points, result.data);
-    if (!predicted) {
+    std::optional<Weights> renewed =
+        weights_at(model, data, std::move(result.weights), theta, *points);
+    if (!renewed) {
       result.run.end = DescentEnd::no_answer;
       result.run.converged = false;
       result.run.message =
           "the weights need simulated impacts near every point, and one of these has no solution";
       return result;
     }
-    result.run = minimise(impact_problem(model, result.data, nullptr, points), theta, minimiser);
+    result.weights = std::move(*renewed);
+    double& noise_scale = result.weights.noise.scale;
+    result.run =
+        minimise(impact_problem(model, data, result.weights, nullptr, points), theta, minimiser);
     if (!result.run.ended()) return result;
     minimiser.strategies = {Strategy::gauss_newton,
                             Strategy::box_descent};  // the next start is near the answer
     double scale = 1.0;
-    if (!result.data.noise.sd_stated) {
+    if (!data.noise.sd_stated) {
       const ConstantsInFit constants =
-          constants_in_fit(result.run, model.adjusted_count(), result.data.constants_weight);
-      const Misfit found =
-          misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants);
+          constants_in_fit(result.run, model.adjusted_count(), noise.constants_weight);
+      const Misfit found = misfit(data, result.weights, result.run.residuals,
+                                  result.weights.predicted, model.free_count(), constants);
       scale = found.scale();
       // For data without noise the scale would shrink without limit.
-      const double rounding = result.data.noise.rounding_sd;
+      const double rounding = data.noise.rounding_sd;
       result.at_rest = std::max(noise_scale, rounding) * scale < least_noise;
       if (result.at_rest) break;
       scale = std::max(scale, std::min(1.0, rounding / noise_scale));
       const double square = scale * scale;
-      if (std::isfinite(limit) &&
-          restricted_criterion(model, result) - found.dof * (square - 1.0 - std::log(square)) >
-              limit) {
+      if (std::isfinite(limit) && restricted_criterion(model, data, result) -
+                                          found.dof * (square - 1.0 - std::log(square)) >
+                                      limit) {
         break;
       }
     }
@@ -165,10 +167,11 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
 }
 
 /// Refines a fit to the last digit with its weights fixed.
-ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
+ReweightedFit finished(const ImpactModel& model, const Observations& data, ReweightedFit fit,
                        const LeastSquaresOptions& minimiser) {
   if (!minimiser.finish || !fit.run.ended()) return fit;
-  LeastSquaresResult run = minimise(impact_problem(model, fit.data), fit.run.theta, minimiser);
+  LeastSquaresResult run =
+      minimise(impact_problem(model, data, fit.weights), fit.run.theta, minimiser);
   if (run.ended()) fit.run = std::move(run);
   return fit;
 }
@@ -202,25 +205,24 @@ double choice_margin(const Noise& noise) {
   return std::isfinite(other) ? other - own : 0.0;
 }
 
-ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
+ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data, const Noise& noise,
                              std::span<const double> start, const ReweightingOptions& options) {
   if (!data.weights_depend_on_fit()) {
-    ReweightedFit result{{}, std::move(data), true};
-    result.run = minimise(impact_problem(model, result.data), start, options.minimiser);
+    ReweightedFit result{{}, first_weights(data, noise), true};
+    result.run = minimise(impact_problem(model, data, result.weights), start, options.minimiser);
     return result;
   }
   if (data.noise.sd_stated || data.noise.spec.variance) {
-    return finished(model, reweight_with(model, std::move(data), start, options),
+    return finished(model, data, reweight_with(model, data, noise, start, options),
                     options.minimiser);
   }
   std::vector<VarianceFunction> functions = {VarianceFunction::constant,
                                              VarianceFunction::proportional,
                                              VarianceFunction::capture, VarianceFunction::steep};
-  if (options
-          .replicate) {  // the function of the original first, as it probably fits best here, too
-    std::stable_partition(functions.begin(), functions.end(), [&](VarianceFunction function) {
-      return function == data.noise.variance;
-    });
+  if (options.replicate) {
+    // the function of the original first, as it probably fits best here, too
+    std::stable_partition(functions.begin(), functions.end(),
+                          [&](VarianceFunction function) { return function == noise.variance; });
   }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
@@ -229,20 +231,20 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
   // The original under the function of candidates.back().
   const Noise::Candidate* before = nullptr;
   for (const VarianceFunction function : functions) {
-    Observations own = data;
-    own.noise.variance = function;
+    Noise own = noise;
+    own.variance = function;
     const auto known = std::find_if(
-        data.noise.candidates.begin(), data.noise.candidates.end(),
+        noise.candidates.begin(), noise.candidates.end(),
         [&](const Noise::Candidate& candidate) { return candidate.function == function; });
-    const bool again = options.replicate && known != data.noise.candidates.end();
+    const bool again = options.replicate && known != noise.candidates.end();
     if (again) {
-      own.noise.scale = known->scale;
+      own.scale = known->scale;
       from = known->theta;
       // The replicate differs from its original by about as much under every function.
       if (before != nullptr) {
         const Noise::Candidate& now = candidates.back();
-        own.noise.scale *= now.scale / before->scale;
-        own.noise.event_spread = now.event_spread;
+        own.scale *= now.scale / before->scale;
+        own.event_spread = now.event_spread;
         for (std::size_t j = 0; j < from.size(); ++j) {
           const ParameterSlot& slot = model.slots[j];
           if (!slot.moves()) continue;
@@ -252,26 +254,26 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     }
     const double limit =
         options.replicate ? best_criterion + far_behind - penalty_of(function) : INFINITY;
-    ReweightedFit result = reweight_with(model, std::move(own), from, options, limit);
+    ReweightedFit result = reweight_with(model, data, own, from, options, limit);
     if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
     }
-    const Noise& noise = result.data.noise;
-    const double criterion = restricted_criterion(model, result);
+    const Noise& found = result.weights.noise;
+    const double criterion = restricted_criterion(model, data, result);
     const double total = criterion + penalty_of(function);
     if (again && !(total > limit)) before = &*known;
     if (!again || before == &*known) {
       candidates.push_back(
-          {function, noise.scale, criterion, noise.event_spread, result.run.theta});
+          {function, found.scale, criterion, found.event_spread, result.run.theta});
     }
     if (total < best_criterion) {
       best_criterion = total;
       best = std::move(result);
     }
   }
-  best->data.noise.candidates = std::move(candidates);
-  return finished(model, std::move(*best), options.minimiser);
+  best->weights.noise.candidates = std::move(candidates);
+  return finished(model, data, std::move(*best), options.minimiser);
 }
 
 }  // namespace recoil

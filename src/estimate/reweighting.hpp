@@ -7,13 +7,14 @@
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 
 /// The estimate together with its weights (iteratively reweighted least squares).
 struct ReweightedFit {
   LeastSquaresResult run;  ///< the last descent; not ended() when a round failed
-  Observations data;       ///< the data with the weights of `run`
+  Weights weights;         ///< those of `run`
   bool at_rest = true;     ///< false: still changing in the last round
 };
 
@@ -26,7 +27,7 @@ struct ReweightingOptions {
   /// scale by less than `scale`, relative.
   double parameters = 1e-3;
   double scale = 1e-4;
-  /// The data are a replicate of a fit with the candidates in `data.noise`: every variance function
+  /// The data are a replicate of a fit with the candidates of `noise`: every variance function
   /// starts from its scale and parameters there, shifted as those of the function before it.
   bool replicate = false;
 };
@@ -50,7 +51,7 @@ struct ReweightingOptions {
 ///     e^2 + omega^2 / 2 b,  omega^2 a^2 + omega^4 / 2 b^2
 ///   with a, b the first two derivatives of e^2 in ln V (differences over sqrt(3) omega). The sd of
 ///   a survivors' mean is that of `survivors_sd`;
-/// - setting_sd, the error of e that the points of one setting share, see `renew_settings`.
+/// - setting_sd, the error of e that the points of one setting share, see `setting_sd_at`.
 ///
 /// The chosen variance function has the smallest
 ///   sum 2 ln sd_i + chi2 + ln |J'J| + penalty,
@@ -65,7 +66,8 @@ struct ReweightingOptions {
 ///
 /// Replicates call this function too, so that everything that was estimated from the data is
 /// estimated again.
-ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
+/// @param noise where the estimates of the noise start
+ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data, const Noise& noise,
                              std::span<const double> start, const ReweightingOptions& options = {});
 
 /// The penalty added to -2 ln restricted likelihood in the comparison of variance functions.

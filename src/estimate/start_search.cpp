@@ -158,7 +158,8 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
   const Observations& seen = part ? *part : data;
   search.points = seen.points.size();
   search.sampled = data.points.size() > many_points;
-  const LeastSquaresProblem problem = impact_problem(model, seen, &search.handovers);
+  const Weights weights = first_weights(seen);
+  const LeastSquaresProblem problem = impact_problem(model, seen, weights, &search.handovers);
   options.finish = false;  // only the best run is refined
   std::vector<StartLead> ended;
   for (const std::vector<double>& start : starting_points(model, first, several)) {

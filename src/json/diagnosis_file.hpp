@@ -152,7 +152,7 @@ struct DiagnosisFile {
   };
 
   struct Unstated {
-    ErrorSource id = ErrorSource::velocity_errors;
+    UnstatedSource id = UnstatedSource::velocity_errors;
     double value = 0.0, delta_aicc = 0.0, remaining_p = 0.0;
     bool leave_nothing = false;
     bool rival = false;  ///< explains the data instead of the answer, or as well

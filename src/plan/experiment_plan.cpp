@@ -82,7 +82,7 @@ void complete_range(const FitSpec& spec, const std::vector<PlannedSize>& sizes,
 }
 
 /// The scatter of the planned points of `dataset`, from the options and the errors in the fit file.
-PlannedScatter planned_scatter(const PlanOptions& options, const Noise::Spec& noise,
+PlannedScatter planned_scatter(const PlanOptions& options, const NoiseSpec& noise,
                                const Dataset& dataset) {
   PlannedScatter scatter;
   scatter.scatter = options.scatter;

@@ -41,12 +41,13 @@ Deviations deviations_of(const Diagnosis& d, std::size_t dataset) {
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset || point.counts_only()) continue;
+    const PointWeights& own = d.base.weights.points[i];
     const double deviation = (point.censored ? 0.0 : point.restitution) -
-                             expected_restitution(point, d.base.prediction_squared[i]);
+                             expected_restitution(point, own, d.base.prediction_squared[i]);
     all.velocities.push_back(point.velocity);
     all.diameters.push_back(point.diameter / unit);
     all.in_e.push_back(deviation);
-    all.in_sd.push_back(point.weights.sd > 0.0 ? deviation / point.weights.sd : 0.0);
+    all.in_sd.push_back(own.sd > 0.0 ? deviation / own.sd : 0.0);
   }
   return all;
 }
@@ -155,10 +156,12 @@ TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, st
 plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
   double top = 0.0;
   double bottom = 1.0;
-  for (const Observation& point : d.base.data.points) {
+  for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
+    const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset) continue;
-    top = std::max(top, point.restitution + 2.0 * point.weights.sd);
-    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.weights.sd);
+    const double sd = d.base.weights.points[i].sd;
+    top = std::max(top, point.restitution + 2.0 * sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * sd);
   }
   const bool high = bottom > 0.7;
   const double room = 0.3 * (top - bottom);
@@ -177,12 +180,13 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     std::size_t series = 0;
   };
   std::map<double, Measured> sizes;
-  for (const Observation& point : d.base.data.points) {
+  for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
+    const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset || point.counts_only()) continue;
     Measured& size = sizes[point.diameter];
     size.velocity.push_back(point.velocity);
     size.restitution.push_back(point.censored ? 0.0 : point.restitution);
-    size.sd.push_back(point.weights.sd);
+    size.sd.push_back(d.base.weights.points[i].sd);
     size.series = point.series;
   }
   plot::Plot shown;

@@ -117,22 +117,24 @@ Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
 // ---- data for the script of the page -----------------------------------------------------------
 
 /// The values of a point that the script reads, by name.
-const std::vector<std::pair<const char*, double (*)(const Observation&)>>& explored_values() {
+using ExploredValue = double (*)(const Observation& point, const PointWeights& weights);
+const std::vector<std::pair<const char*, ExploredValue>>& explored_values() {
   using Point = const Observation&;
-  static const std::vector<std::pair<const char*, double (*)(Point)>> values = {
-      {"velocity", [](Point p) { return p.velocity; }},
-      {"diameter", [](Point p) { return p.diameter; }},
-      {"restitution", [](Point p) { return p.restitution; }},
-      {"sd", [](Point p) { return p.weights.sd; }},
-      {"censored", [](Point p) { return p.censored ? 1.0 : 0.0; }},
-      {"input_sd", [](Point p) { return p.weights.input_sd; }},
-      {"scatter", [](Point p) { return p.weights.scatter; }},
-      {"shift", [](Point p) { return p.weights.shift; }},
-      {"mean_sd", [](Point p) { return p.weights.mean_sd; }},
-      {"least", [](Point p) { return p.weights.scatter > 0.0 ? p.weights.peak.deviance : 0.0; }},
-      {"events", [](Point p) { return double(p.events); }},
-      {"captured", [](Point p) { return double(p.captured); }},
-      {"counted", [](Point p) { return p.counted ? 1.0 : 0.0; }}};
+  using Own = const PointWeights&;
+  static const std::vector<std::pair<const char*, ExploredValue>> values = {
+      {"velocity", [](Point p, Own) { return p.velocity; }},
+      {"diameter", [](Point p, Own) { return p.diameter; }},
+      {"restitution", [](Point p, Own) { return p.restitution; }},
+      {"sd", [](Point, Own w) { return w.sd; }},
+      {"censored", [](Point p, Own) { return p.censored ? 1.0 : 0.0; }},
+      {"input_sd", [](Point, Own w) { return w.input_sd; }},
+      {"scatter", [](Point, Own w) { return w.scatter; }},
+      {"shift", [](Point, Own w) { return w.shift; }},
+      {"mean_sd", [](Point, Own w) { return w.mean_sd; }},
+      {"least", [](Point, Own w) { return w.scatter > 0.0 ? w.peak.deviance : 0.0; }},
+      {"events", [](Point p, Own) { return double(p.events); }},
+      {"captured", [](Point p, Own) { return double(p.captured); }},
+      {"counted", [](Point p, Own) { return p.counted ? 1.0 : 0.0; }}};
   return values;
 }
 
@@ -147,24 +149,26 @@ double rounded(double value) {
 /// Adds the drawn points of a panel: their chi2, the names of the columns and one row for each
 /// point. Columns that contain only zeros are omitted.
 void add_explored_points(const Analysis& analysis, const Panel& panel, Json& out) {
-  std::vector<const Observation*> drawn;
+  const FitResult& fit = analysis.fitted;
+  std::vector<std::size_t> drawn;
   double chi2 = 0.0;
   for (std::size_t k = 0; k < panel.points.size(); k += drawn_every(panel)) {
-    drawn.push_back(&analysis.fitted.data.points[panel.points[k]]);
-    chi2 += std::pow(analysis.fitted.residuals[panel.points[k]], 2);
+    drawn.push_back(panel.points[k]);
+    chi2 += std::pow(fit.residuals[panel.points[k]], 2);
   }
   out["chi2"] = number_or_null(chi2);
   out["columns"] = Json::array();
   out["points"] = Json(std::vector<Json>(drawn.size(), Json::array()));
   for (const auto& column : explored_values()) {
-    const auto value = column.second;
-    if (std::all_of(drawn.begin(), drawn.end(),
-                    [&](const Observation* point) { return value(*point) == 0.0; })) {
+    const auto value = [&](std::size_t i) {
+      return column.second(fit.data.points[i], fit.weights.points[i]);
+    };
+    if (std::all_of(drawn.begin(), drawn.end(), [&](std::size_t i) { return value(i) == 0.0; })) {
       continue;
     }
     out["columns"].push_back(column.first);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-      out["points"][i].push_back(number_or_null(rounded(value(*drawn[i]))));
+      out["points"][i].push_back(number_or_null(rounded(value(drawn[i]))));
     }
   }
 }

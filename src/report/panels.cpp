@@ -68,7 +68,7 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
     if (point.dataset != dataset) continue;
     lower = std::min(lower, point.velocity);
     upper = std::max(upper, point.velocity);
-    const double sd = analysis.fitted.data.noise.sd_stated ? point.weights.sd : 0.0;
+    const double sd = analysis.fitted.data.noise.sd_stated ? point.sd : 0.0;
     axes.top = std::max(axes.top, std::min(1.5, 1.03 * (point.restitution + sd)));
   }
   const double slowest = lower;
@@ -131,7 +131,7 @@ PointColumns point_columns(const Analysis& analysis, const std::vector<std::size
     } else {
       columns.velocity.push_back(point.velocity);
       columns.restitution.push_back(point.restitution);
-      columns.sd.push_back(point.weights.sd);
+      columns.sd.push_back(point.sd);
     }
   }
   return columns;

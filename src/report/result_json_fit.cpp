@@ -158,9 +158,8 @@ void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& mode
   if (!budget.available()) return;
   std::vector<FitFile::BudgetRow>& rows = entry.budget.emplace();
   for (const BudgetEntry& source : budget.entries) {
-    const bool constant = source.source == BudgetSource::constant;
     FitFile::BudgetRow& row = rows.emplace_back();
-    row.source = constant ? source_words(source, model) : to_string(source.source);
+    row.source = source.constant ? source_words(source, model) : std::string(source.source);
     row.sd = source.sd;
     row.share = source.share;
     if (source.lower && source.upper) row.move.emplace(Ends{*source.lower, *source.upper});
@@ -313,8 +312,8 @@ FitFile::Goodness goodness_of(const FitResult& f) {
 
 FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;
-  const Noise& noise = data.noise;
-  const auto count_with = [&](double MeasuredPoint::*error) {
+  const Noise& noise = f.weights.noise;
+  const auto count_with = [&](double InputErrors::*error) {
     return static_cast<int>(
         std::count_if(data.points.begin(), data.points.end(),
                       [&](const Observation& point) { return point.*error > 0.0; }));
@@ -333,17 +332,17 @@ FitFile::Noise noise_of(const FitResult& f) {
   }
   out.margin = {noise.candidates.size() > 1 ? std::optional(choice_margin(noise)) : std::nullopt,
                 "nothing was chosen"};
-  out.points_with_velocity_errors = count_with(&MeasuredPoint::velocity_sd);
-  out.points_with_diameter_errors = count_with(&MeasuredPoint::diameter_sd);
+  out.points_with_velocity_errors = count_with(&InputErrors::velocity_sd);
+  out.points_with_diameter_errors = count_with(&InputErrors::diameter_sd);
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
-  out.setting_sd = {only_if(data.noise.shares_settings(), noise.setting_sd),
+  out.setting_sd = {only_if(data.share(SharedBy::setting), noise.setting_sd),
                     "the points of one setting are assumed to share no error"};
   out.setting_sd_estimated = data.noise.setting_sd_estimated;
-  out.residuals = noise.student ? "student" : "normal";
-  out.student_dof = {noise.student ? std::optional(noise.student->dof) : std::nullopt,
-                     "normal residuals"};
-  out.efficiency = noise.student ? noise.student->efficiency() : 1.0;
+  const std::optional<StudentNoise>& student = data.noise.student;
+  out.residuals = student ? "student" : "normal";
+  out.student_dof = {student ? std::optional(student->dof) : std::nullopt, "normal residuals"};
+  out.efficiency = student ? student->efficiency() : 1.0;
   out.text = noise_words(f);
   return out;
 }
@@ -567,23 +566,24 @@ std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
   std::vector<FitFile::Residual> rows;
   for (std::size_t i = 0; i < f.data.points.size(); ++i) {
     const Observation& point = f.data.points[i];
+    const PointWeights& own = f.weights.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     const bool in_series = point.series < dataset.series.size();
-    rows.push_back({.dataset = dataset.id,
-                    .series = in_series ? dataset.series[point.series] : "",
-                    .diameter_um = in_um(point.diameter),
-                    .incident_velocity = point.velocity,
-                    .restitution = only_if(!point.counts_only(), point.restitution),
-                    .restitution_sd =
-                        only_if(f.data.noise.sd_stated && !point.counts_only(), point.weights.sd),
-                    .sd_used = point.weights.sd,
-                    .sd_of_e2_from_inputs = point.weights.input_sd,
-                    .captured = point.rebounds() == 0,
-                    .captured_count = point.captured,
-                    .events = point.events,
-                    .predicted = at(f.prediction, i),
-                    .weighted_residual = at(f.residuals, i),
-                    .leverage = at(f.leverage, i)});
+    rows.push_back(
+        {.dataset = dataset.id,
+         .series = in_series ? dataset.series[point.series] : "",
+         .diameter_um = in_um(point.diameter),
+         .incident_velocity = point.velocity,
+         .restitution = only_if(!point.counts_only(), point.restitution),
+         .restitution_sd = only_if(f.data.noise.sd_stated && !point.counts_only(), own.sd),
+         .sd_used = own.sd,
+         .sd_of_e2_from_inputs = own.input_sd,
+         .captured = point.rebounds() == 0,
+         .captured_count = point.captured,
+         .events = point.events,
+         .predicted = at(f.prediction, i),
+         .weighted_residual = at(f.residuals, i),
+         .leverage = at(f.leverage, i)});
   }
   return rows;
 }

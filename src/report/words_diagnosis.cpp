@@ -364,28 +364,28 @@ std::string dominant_point_words(const Diagnosis& d) {
 std::string errors_words(const UnstatedErrors& errors) {
   const std::string p = fmt::format("(p = {:.2g})", errors.remaining_p);
   switch (errors.source) {
-    case ErrorSource::shared_setting:
+    case UnstatedSource::shared_setting:
       return fmt::format(
           "with an error of {:.2g} in e that all points of one setting share, no structure remains "
           "{}; repeats of one setting do not average it out, and setting_sd = {:.2g} under [noise] "
           "includes it in the fit",
           errors.value, p, errors.value);
-    case ErrorSource::velocity_errors:
+    case UnstatedSource::velocity_errors:
       return fmt::format(
           "with an error of {:.2g} % in each velocity (velocity_relative_sd = {:.2g} under "
           "[noise]), no structure remains {}",
           100.0 * errors.value, errors.value, p);
-    case ErrorSource::height_readings:
+    case UnstatedSource::height_readings:
       return fmt::format(
           "with an error of {:.2g} mm in each height (a step of {:.2g} mm), no structure remains "
           "{}; include it in restitution_sd",
           errors.value / units::mm, steps_of_sd * errors.value / units::mm, p);
-    case ErrorSource::time_readings:
+    case UnstatedSource::time_readings:
       return fmt::format(
           "with an error of {:.2g} ms in each time (a step of {:.2g} ms), no structure remains {}; "
           "include it in restitution_sd",
           errors.value / units::ms, steps_of_sd * errors.value / units::ms, p);
-    case ErrorSource::larger_deviations:
+    case UnstatedSource::larger_deviations:
       break;
   }
   return fmt::format("with standard deviations {:.2g} times as large, no structure remains {}",
@@ -434,7 +434,7 @@ std::string bound_words(const Diagnosis& d) {
 
 /// Why the points cannot test the model; empty if they can.
 std::string untested_words(const Diagnosis& d) {
-  if (!d.base.data.noise.known) {
+  if (!d.base.weights.noise.known) {
     return "The noise is neither stated nor known from the points, so nothing can be tested.";
   }
   if (tests_the_curve(d)) return "";
@@ -620,7 +620,7 @@ std::vector<std::string> rates_words(const Diagnosis& d) {
 /// The median standard deviation of e.
 double typical_error(const Diagnosis& d) {
   std::vector<double> errors;
-  for (const Observation& point : d.base.data.points) errors.push_back(point.weights.sd);
+  for (const PointWeights& own : d.base.weights.points) errors.push_back(own.sd);
   return median(std::move(errors));
 }
 

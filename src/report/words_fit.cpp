@@ -9,7 +9,7 @@
 #include <map>
 
 #include "estimate/reweighting.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
@@ -25,11 +25,11 @@ constexpr double clear = 4.0;
 
 // ---- noise -------------------------------------------------------------------------------------
 
-std::string variance_words(const Observations& data) {
-  const Noise& noise = data.noise;
+std::string variance_words(const FitResult& fitted) {
+  const Noise& noise = fitted.weights.noise;
   const std::string text =
       "estimated from the residuals: " + scale_words(noise.variance, noise.scale);
-  if (data.noise.spec.variance || noise.candidates.empty()) return text;
+  if (fitted.data.noise.spec.variance || noise.candidates.empty()) return text;
   std::vector<std::string_view> others;
   for (const Noise::Candidate& candidate : noise.candidates) {
     if (candidate.function != noise.variance) others.push_back(name_of(candidate.function));
@@ -53,10 +53,10 @@ std::string unknown_noise_words(const FitResult& fitted) {
 std::string verdict_words(const FitResult& fitted) {
   switch (fitted.noise_verdict) {
     case NoiseVerdict::unchecked:
-      return fitted.data.noise.known ? "not checked: there are no more points than parameters"
-                                     : unknown_noise_words(fitted);
+      return fitted.weights.noise.known ? "not checked: there are no more points than parameters"
+                                        : unknown_noise_words(fitted);
     case NoiseVerdict::estimated:
-      return variance_words(fitted.data);
+      return variance_words(fitted);
     case NoiseVerdict::explained:
       return "the stated standard deviations explain the scatter";
     case NoiseVerdict::doubtful:
@@ -70,11 +70,12 @@ std::string verdict_words(const FitResult& fitted) {
 }
 
 /// The largest contribution of velocity and diameter errors, in standard deviations of e.
-std::string input_words(const std::vector<Observation>& points) {
+std::string input_words(const FitResult& fitted) {
   double most = 0.0;
   int count = 0;
-  for (const Observation& point : points) {
-    const PointWeights& weights = point.weights;
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
+    const PointWeights& weights = fitted.weights.points[i];
     if (!(weights.input_sd > 0.0) || point.censored) continue;
     ++count;
     const double width = std::max(2.0 * point.restitution, weights.sd) * weights.sd;
@@ -86,27 +87,28 @@ std::string input_words(const std::vector<Observation>& points) {
       most, count);
 }
 
-std::string setting_words(const Observations& data, int free_count) {
-  if (!data.noise.shares_settings()) return "";
+std::string setting_words(const FitResult& fitted) {
+  const Observations& data = fitted.data;
+  const double sd = fitted.weights.noise.setting_sd;
+  if (!data.share(SharedBy::setting)) return "";
   const SettingCount count = count_settings(data);
   const std::string source = fmt::format("{}, {} settings, {} points",
                                          data.noise.setting_sd_estimated ? "estimated" : "stated",
                                          count.settings, count.points);
-  if (data.noise.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
+  if (setting_velocity_error().acts(data) && !(sd > 0.0)) {
     return fmt::format("; the points of one setting share its stated error of velocity ({})",
                        source);
   }
-  if (data.noise.setting_sd_estimated && spare_settings(data, free_count) < 1) {
+  if (data.noise.setting_sd_estimated && spare_settings(data, fitted.model.free_count()) < 1) {
     return fmt::format(
         "; an error that the points of one setting share cannot be estimated from so few settings "
         "({})",
         source);
   }
-  return data.noise.setting_sd > 0.0
-             ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
-                           data.noise.setting_sd, source)
-             : fmt::format("; no shared error of the points of one setting is detected ({})",
-                           source);
+  return sd > 0.0 ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
+                                sd, source)
+                  : fmt::format("; no shared error of the points of one setting is detected ({})",
+                                source);
 }
 
 // ---- warnings ----------------------------------------------------------------------------------
@@ -215,7 +217,7 @@ Sentences undetermined_warnings(const FitResult& fitted) {
         joined(fitted.flat, ", ",
                [&](std::size_t j) { return symbol(fitted.model.slots[j].label()); }))};
   }
-  if (!fitted.data.noise.known) {
+  if (!fitted.weights.noise.known) {
     return {Sentence("the noise is " + unknown_noise_words(fitted) +
                      ": no standard errors and no intervals")};
   }
@@ -303,7 +305,7 @@ Sentences start_warnings(const FitResult& fitted) {
   return warnings;
 }
 
-Sentence point_words(const MeasuredPoint& point) {
+Sentence point_words(const Observation& point) {
   return say("{e} = {:.4g} at {V} = {:.4g} m/s", point.restitution, point.velocity);
 }
 
@@ -312,7 +314,7 @@ Sentence point_words(const MeasuredPoint& point) {
 Sentence equation_words(AdhesionLaw law) { return say(traits(law).description); }
 
 Sentence quality_words(const FitResult& f) {
-  if (!f.data.noise.known) {
+  if (!f.weights.noise.known) {
     return say("The fit cannot be tested: its noise is not known ({}).", why_noise_is_unknown(f));
   }
   if (!f.data.noise.sd_stated) {
@@ -364,16 +366,14 @@ Sentence loss_words(const Analysis& a) {
 
 std::string noise_words(const FitResult& fitted) {
   if (!fitted.usable) return "";
-  const Observations& data = fitted.data;
-  std::string text = verdict_words(fitted) + input_words(data.points);
-  if (data.noise.event_spread > 0.0) {
+  std::string text = verdict_words(fitted) + input_words(fitted);
+  if (const double spread = fitted.weights.noise.event_spread; spread > 0.0) {
     text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
-                        100.0 * data.noise.event_spread);
+                        100.0 * spread);
   }
-  text += setting_words(data, fitted.model.free_count());
-  if (data.noise.student) {
-    text += fmt::format("; Student's t residuals with {:g} degrees of freedom",
-                        data.noise.student->dof);
+  text += setting_words(fitted);
+  if (const auto& student = fitted.data.noise.student) {
+    text += fmt::format("; Student's t residuals with {:g} degrees of freedom", student->dof);
   }
   return text;
 }

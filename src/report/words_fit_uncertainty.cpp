@@ -337,7 +337,7 @@ std::string scheme_words(const BootstrapResult& bootstrap) {
       {sd_stated, "every point states its standard deviation"},
       {sd_not_stated, "no standard deviations are stated"},
       {no_residuals, "no point rebounded, so there are no residuals"},
-      {shared_sizes, "points of one series share an error of their diameter"}};
+      {shared_errors, "points share errors, so that single ones cannot be exchanged"}};
   constexpr std::size_t few = 10;
   const bool too_few = bootstrap.scheme == Scheme::cluster && bootstrap.series < few;
   return fmt::format(
@@ -508,16 +508,8 @@ Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {
 }
 
 std::string source_words(const BudgetEntry& entry, const ImpactModel& model) {
-  using enum BudgetSource;
-  static constexpr Phrase<BudgetSource> phrases[] = {
-      {scatter, "scatter of the points"},
-      {velocity, "errors of the velocities"},
-      {diameter, "errors of the diameters"},
-      {spread, "the estimated spread of the impacts"},
-      {constant, ""},
-      {numerics, "numerics"}};
-  return entry.source == constant ? model.slots[model.first_constant() + entry.constant].label()
-                                  : phrase_for(phrases, entry.source).words;
+  return entry.constant ? model.slots[model.first_constant() + *entry.constant].label()
+                        : std::string(entry.words);
 }
 
 std::vector<Sentence> budget_sentences(const Analysis& a) {
@@ -527,8 +519,8 @@ std::vector<Sentence> budget_sentences(const Analysis& a) {
   const auto add = [&](const Sentence& quantity, const ErrorBudget& budget) {
     if (!budget.available()) return;
     const BudgetEntry& first = budget.entries.front();
-    const std::string source = first.source == BudgetSource::constant
-                                   ? "the " + constant_words(model, first.constant, a.datasets)
+    const std::string source = first.constant
+                                   ? "the " + constant_words(model, *first.constant, a.datasets)
                                    : source_words(first, model);
     auto found = std::find_if(by_source.begin(), by_source.end(),
                               [&](const auto& one) { return one.first == source; });

@@ -80,7 +80,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   // Repeats the first failed refit for the message of the minimiser.
   Observations sample = plan.fitted->data;
   resample(plan, seed, result.index.front(), sample);
-  const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
+  const LeastSquaresResult again = refit(*plan.fitted, sample);
   result.undetermined = again.ended();
   if (!again.ended()) result.message = again.message;
   return result;
@@ -117,26 +117,31 @@ class Workspace {
   /// The refit of replicate `index`, with its own weights if weights depend on the fit.
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
+    const FitResult& fitted = *plan_.fitted;
     if (sample_.weights_depend_on_fit()) {
-      ReweightedFit settled =
-          reweighted_fit(model_, sample_, plan_.fitted->theta, refit_reweighting_options());
-      weighted_ = std::move(settled.data);
+      ReweightedFit settled = reweighted_fit(model_, sample_, fitted.weights.noise, fitted.theta,
+                                             refit_reweighting_options());
+      weights_ = std::move(settled.weights);
       return std::move(settled.run);
     }
     const bool same_design = plan_.scheme != Scheme::cases && plan_.scheme != Scheme::cluster;
-    if (!problem_ || !same_design) problem_ = impact_problem(model_, sample_);
-    return minimise(*problem_, plan_.fitted->theta, minimiser_);
+    if (!problem_ || !same_design) {
+      weights_ = first_weights(sample_, fitted.weights.noise);
+      problem_ = impact_problem(model_, sample_, weights_);
+    }
+    return minimise(*problem_, fitted.theta, minimiser_);
   }
 
-  /// The data of the last refit, with their weights.
-  const Observations& data() const { return sample_.weights_depend_on_fit() ? weighted_ : sample_; }
+  /// The data of the last refit, and their weights.
+  const Observations& data() const { return sample_; }
+  const Weights& weights() const { return weights_; }
 
  private:
   const ResamplingPlan& plan_;
   ImpactModel model_;
   const LeastSquaresOptions minimiser_ = refit_options();
   Observations sample_;
-  Observations weighted_;
+  Weights weights_;
   std::optional<LeastSquaresProblem> problem_;
 };
 
@@ -204,7 +209,8 @@ Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>
     Workspace& workspace = *run->workspaces.local();
     const LeastSquaresResult found = workspace.refit(options_.seed, i);
     if (!has_answer(found, fitted_)) return std::vector<double>{};
-    const auto covariance = replicate_covariance(found, workspace.data(), fitted_, plan_);
+    const auto covariance =
+        replicate_covariance(found, workspace.data(), workspace.weights(), fitted_, plan_);
     std::vector<double> numbers = found.theta;
     const std::vector<double> errors = roots_of_diagonal(covariance, found.theta.size());
     numbers.insert(numbers.end(), errors.begin(), errors.end());
@@ -288,7 +294,7 @@ std::string digits_of(const FitResult& fitted) {
 BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                           const UncertaintyOptions& options) {
   Bootstrap run(fitted, capture, options);
-  const bool known = fitted.data.noise.known;  // without noise nothing can be drawn
+  const bool known = fitted.weights.noise.known;  // without noise nothing can be drawn
   for (int count = known ? first_count(options) : 0;;) {
     run.extend(count);
     BootstrapResult result = run.result();
@@ -327,7 +333,7 @@ std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threa
       if (!left_out[i]) kept.push_back(i);
     }
     const Observations rest = plan.fitted->data.subset(kept);
-    const LeastSquaresResult found = refit(plan.fitted->model, rest, plan.fitted->theta);
+    const LeastSquaresResult found = refit(*plan.fitted, rest);
     if (has_answer(found, *plan.fitted)) estimates[unit] = found.theta;
   });
   return estimates;

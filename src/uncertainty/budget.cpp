@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
-#include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_errors.hpp"
 #include "uncertainty/refit.hpp"
 
 namespace recoil {
@@ -35,7 +38,7 @@ struct Quantity {
 class BudgetMaker {
  public:
   explicit BudgetMaker(const FitResult& fitted) : fitted_(fitted) {
-    const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data);
+    const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data, fitted.weights);
     const std::size_t p = fitted.theta.size();
     std::vector<double> residuals(problem.residual_count);
     jacobian_.resize(problem.residual_count * p);
@@ -47,7 +50,8 @@ class BudgetMaker {
     }
     add_constant_effects(fitted.constant_effects, covariance_, -1.0);
     scale_ = std::sqrt(scaled_covariance(fitted.data, {1.0}, fitted.noise_scale).front());
-    find_input_shares();
+    shared_ = std::make_unique<const SharedErrors>(fitted.data, fitted.weights);
+    loads_ = loads_of_sources(fitted.data, fitted.weights);
   }
 
   ErrorBudget operator()(const Quantity& quantity) const {
@@ -68,31 +72,20 @@ class BudgetMaker {
       for (std::size_t a = 0; a < p; ++a) sum += reach[a] * jacobian_[row * p + a];
       return sum / scale_;
     };
-    double scatter = 0.0, velocity = 0.0, diameter = 0.0, numerics = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double square = part(i) * part(i);
-      velocity += square * velocity_share_[i];
-      diameter += square * diameter_share_[i];
-      scatter += square * (1.0 - velocity_share_[i] - diameter_share_[i]);
-      numerics += square * std::pow(residual_slope_[i] * solver_error / scale_, 2);
-    }
+    add_points(part, budget);
     double spread = 0.0;
     for (std::size_t a = 0; a < p && !fitted_.spread_covariance.empty(); ++a) {
       for (std::size_t b = 0; b < p; ++b) {
         spread += g[a] * fitted_.spread_covariance[a * p + b] * g[b];
       }
     }
-    add(budget, BudgetSource::scatter, scatter);
-    add(budget, BudgetSource::velocity, velocity);
-    add(budget, BudgetSource::diameter, diameter);
-    add(budget, BudgetSource::spread, spread);
-    add(budget, BudgetSource::numerics, numerics);
+    add(budget, {"spread", "the estimated spread of the impacts"}, spread);
     for (std::size_t k = 0; k < fitted_.model.constants.size(); ++k) {
       const double own =
           fitted_.constant_effects.empty()
               ? part(n + k)
               : std::inner_product(g.begin(), g.end(), fitted_.constant_effects[k].begin(), 0.0);
-      add(budget, BudgetSource::constant, own * own, k);
+      add(budget, {"", "", k}, own * own);
     }
     double variance = 0.0;
     for (const BudgetEntry& entry : budget.entries) variance += entry.sd * entry.sd;
@@ -102,11 +95,11 @@ class BudgetMaker {
     std::stable_sort(budget.entries.begin(), budget.entries.end(),
                      [](const BudgetEntry& a, const BudgetEntry& b) { return a.sd > b.sd; });
     for (BudgetEntry& entry : budget.entries) {
-      if (entry.source != BudgetSource::constant) continue;
+      if (!entry.constant) continue;
       if (!budget.sd_without_first_constant) {
         // The variance at a known constant: minus the squared covariance over the constant's
         // variance; if the fit does not move the constant, minus the constant's own part.
-        const std::size_t j = fitted_.model.first_constant() + entry.constant;
+        const std::size_t j = fitted_.model.first_constant() + *entry.constant;
         const double given = variance - (fitted_.model.adjusts_constants()
                                              ? reach[j] * reach[j] / covariance_[j * p + j]
                                              : entry.sd * entry.sd);
@@ -118,16 +111,64 @@ class BudgetMaker {
   }
 
  private:
-  void add(ErrorBudget& budget, BudgetSource source, double square,
-           std::size_t constant = 0) const {
+  void add(ErrorBudget& budget, BudgetEntry entry, double square) const {
     if (!(square > 0.0)) return;
-    budget.entries.push_back({source, constant, std::sqrt(square), 0.0, {}, {}});
+    entry.sd = std::sqrt(square);
+    budget.entries.push_back(std::move(entry));
+  }
+
+  /// Adds the parts of the points' errors. With a the parts of the whitened residuals and W the
+  /// whitening, sum a^2 = b'(D + U U')b, b = W a (SharedErrors): one term for the scatter of each
+  /// point, of which the errors of its own V and d are a share, and one for every shared draw.
+  template <class Part>
+  void add_points(const Part& part, ErrorBudget& budget) const {
+    const Observations& data = fitted_.data;
+    const std::size_t n = data.points.size();
+    std::vector<double> b(n);
+    for (std::size_t i = 0; i < n; ++i) b[i] = part(i);
+    shared_->whiten(b);
+    double scatter = 0.0, numerics = 0.0;
+    std::vector<double> of_source(data.sources.size(), 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const PointWeights& own = fitted_.weights.points[i];
+      const double slope =
+          weighted_residual(data.points[i], own, fitted_.prediction_squared[i], data.noise.student)
+              .slope;
+      numerics += std::pow(b[i] * slope * solver_error / scale_, 2);
+      double rest = own_noise_scale(data, i, b[i] * b[i]);
+      for (std::size_t k = 0; k < of_source.size() && rest > 0.0; ++k) {
+        if (data.sources[k]->shared != SharedBy::nobody) continue;
+        const double share = std::pow(fitted_.weights.effects[k][i] * slope, 2);
+        const double square = std::min(rest, b[i] * b[i] * share);
+        of_source[k] += square;
+        rest -= square;
+      }
+      scatter += rest;
+    }
+    for (std::size_t k = 0; k < of_source.size(); ++k) {
+      const ErrorSource& source = *data.sources[k];
+      std::map<std::size_t, double> draws;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double load = source.is_scatter() ? 1.0 : loads_[k][i];
+        for (const ErrorPart& one : source.parts(data.points[i])) {
+          draws[one.draw] += b[i] * load * one.factor;
+        }
+      }
+      for (const auto& [draw, sum] : draws) {
+        (source.is_scatter() ? scatter : of_source[k]) += sum * sum;
+      }
+    }
+    add(budget, {"scatter", "scatter of the points"}, scatter);
+    for (std::size_t k = 0; k < of_source.size(); ++k) {
+      add(budget, {data.sources[k]->names.id, data.sources[k]->names.words}, of_source[k]);
+    }
+    add(budget, {"numerics", "numerics"}, numerics);
   }
 
   /// Sets the shift of the quantity when the constant is one standard deviation lower or higher.
   void move(const Quantity& quantity, BudgetEntry& entry, ErrorBudget& budget) const {
     for (const double by : {-1.0, 1.0}) {
-      const auto theta = estimate_with_constant_moved(fitted_, entry.constant, by);
+      const auto theta = estimate_with_constant_moved(fitted_, *entry.constant, by);
       if (!theta) return;
       const auto there = quantity.at(*theta);
       if (!there) return;
@@ -142,36 +183,12 @@ class BudgetMaker {
     }
   }
 
-  /// Computes the shares of the errors of V and d in the variance of each point, see
-  /// `reweighted_fit`.
-  void find_input_shares() {
-    const std::vector<Observation>& points = fitted_.data.points;
-    PointPredictor predictor(fitted_.model, fitted_.data.conditions());
-    predictor.evaluate(fitted_.theta, true);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Observation& point = points[i];
-      const double m = predictor.at(i).restitution_squared;
-      residual_slope_.push_back(weighted_residual(point, m, fitted_.data.noise.student).slope);
-      const double of_ratio =
-          point.rebound_measured ? 2.0 * std::max(m, 0.0) / point.velocity : 0.0;
-      const double v = (predictor.velocity_slope(i) + of_ratio) * point.velocity_sd;
-      const double d = predictor.diameter_slope(i) * point.diameter_sd;
-      const double both = v * v + d * d;
-      const double variance = 1.0 / std::pow(residual_slope_[i], 2);
-      const double share =
-          both > 0.0 && std::isfinite(variance)
-              ? std::min(1.0, point.weights.input_sd * point.weights.input_sd / variance)
-              : 0.0;
-      velocity_share_.push_back(both > 0.0 ? share * v * v / both : 0.0);
-      diameter_share_.push_back(both > 0.0 ? share * d * d / both : 0.0);
-    }
-  }
-
   const FitResult& fitted_;
   bool usable_ = false;
   double scale_ = 1.0;
   std::vector<double> jacobian_, covariance_;
-  std::vector<double> residual_slope_, velocity_share_, diameter_share_;  // [points]
+  std::unique_ptr<const SharedErrors> shared_;
+  std::vector<std::vector<double>> loads_;
 };
 
 Quantity slot_quantity(std::size_t slot) {

@@ -1,41 +1,27 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include "core/names.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/capture_estimate.hpp"
 
 namespace recoil {
 
-/// Source of an error.
-enum class BudgetSource {
-  scatter,   ///< scatter of the points, without the errors of V and d
-  velocity,  ///< stated errors of V, independent from point to point
-  diameter,  ///< stated errors of d, independent from point to point
-  spread,    ///< uncertainty of the estimated scatter from impact to impact
-  constant,  ///< a material constant
-  numerics,  ///< the solver's tolerance
-};
-template <>
-struct NamesOf<BudgetSource> {
-  static constexpr std::array<std::string_view, 6> names = {"scatter", "velocity", "diameter",
-                                                            "spread",  "constant", "numerics"};
-};
-
 /// One row of a budget.
 struct BudgetEntry {
-  BudgetSource source = BudgetSource::scatter;
-  std::size_t constant = 0;  ///< index into ImpactModel::constants, if the source is a constant
-  double sd = 0.0;           ///< standard deviation from this source alone, in the quantity's unit
-  double share = 0.0;        ///< share of the variance [1]
+  /// "scatter", "spread" (uncertainty of the estimated scatter from impact to impact), "numerics"
+  /// (the solver's tolerance), or ErrorSource::names; empty for a constant.
+  std::string_view source = {};
+  std::string_view words = {};               ///< the same for a sentence
+  std::optional<std::size_t> constant = {};  ///< index into ImpactModel::constants
+  double sd = 0.0;     ///< standard deviation from this source alone, in the quantity's unit
+  double share = 0.0;  ///< share of the variance [1]
   /// The shift of the quantity when the constant is one standard deviation lower and higher and the
   /// model is refitted; only for a share of at least 2 %.
-  std::optional<double> lower, upper;
+  std::optional<double> lower = {}, upper = {};
 };
 
 /// The error budget of one quantity, by independent sources: the law of propagation of the GUM

@@ -35,7 +35,7 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
                         double level) {
   Interval interval;
   const FitResult& fitted = alternatives.front().fitted;
-  const double spread = fitted.data.noise.event_spread;
+  const double spread = fitted.weights.noise.event_spread;
   if (spread > widest_spread) interval.note = {Caution::wide_spread, spread};
   if (averages_over_sizes(fitted.model, dataset)) {
     interval.note = {Caution::mixed_sizes, mixed_capture_coverage};
@@ -45,10 +45,10 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   }
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
-    interval.missing = !fitted.data.noise.known ? NoInterval::noise_unknown
-                       : !capture.found         ? NoInterval::never_rebounds
-                       : !(capture.value > 0.0) ? NoInterval::never_captured
-                                                : NoInterval::no_covariance;
+    interval.missing = !fitted.weights.noise.known ? NoInterval::noise_unknown
+                       : !capture.found            ? NoInterval::never_rebounds
+                       : !(capture.value > 0.0)    ? NoInterval::never_captured
+                                                   : NoInterval::no_covariance;
     return interval;
   }
   const std::vector<WaldTerm> terms = capture_terms(alternatives, capture, dataset, diameter);
@@ -131,7 +131,7 @@ Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture) {
   const bool at_bound =
       std::find(fitted.at_bound.begin(), fitted.at_bound.end(), true) != fitted.at_bound.end();
-  const bool spread = fitted.data.noise.event_spread > 0.0;
+  const bool spread = fitted.weights.noise.event_spread > 0.0;
   const Interval& delta = capture[CaptureIntervalKind::delta];
   const Interval& percentile = capture[CaptureIntervalKind::percentile];
   const bool replicates =
@@ -168,7 +168,7 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
     Interval& studentized = capture[CaptureIntervalKind::studentized];
     if (nothing_free) {
       percentile = no_interval(NoInterval::nothing_free);
-    } else if (!fitted.data.noise.known) {
+    } else if (!fitted.weights.noise.known) {
       percentile = no_interval(NoInterval::noise_unknown);
     } else if (replicates.withheld()) {
       percentile = no_interval(NoInterval::refits_failed);

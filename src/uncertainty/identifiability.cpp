@@ -117,7 +117,7 @@ Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<CaptureEstimate>& capture,
                                       const std::vector<NoiseAlternative>& alternatives) {
   Identifiability result;
-  result.event_spread = fitted.data.noise.event_spread;
+  result.event_spread = fitted.weights.noise.event_spread;
   int free_count = 0;
   int good = 0;
   const std::vector<double> scales = loss_scales(fitted);

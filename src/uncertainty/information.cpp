@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "estimate/impact_problem.hpp"
@@ -60,7 +61,7 @@ Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd
     errors[c] = 1.0 / (value * fitted.model.constants[constant].deviation_slope(value));
   }
   if (fitted.model.adjusts_constants()) {
-    const double weight = fitted.data.constants_weight / fitted.noise_scale;
+    const double weight = fitted.weights.noise.constants_weight / fitted.noise_scale;
     Eigen::MatrixXd others = points.bottomRightCorner(k, k);
     others.diagonal() += (weight * errors.cwiseInverse()).cwiseAbs2();
     return own - beside * others.ldlt().solve(beside.transpose());
@@ -74,8 +75,9 @@ Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd
 /// Derivatives of the weighted residuals of `data` with respect to ln theta of the slots `inner`,
 /// at the estimate [n x inner].
 Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations& data,
+                                     const Weights& weights,
                                      const std::vector<std::size_t>& inner) {
-  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
+  const LeastSquaresProblem problem = impact_problem(fitted.model, data, weights);
   const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   std::vector<double> residuals(problem.residual_count);
@@ -179,24 +181,29 @@ std::vector<InformationDirection> directions_of(
 }
 
 /// The planned observation: the one nearest in ln V, preferably of this place, moved to `velocity`.
-Observation planned(const Observations& data, const CapturePlace& place, double velocity) {
-  const Observation* nearest = nullptr;
+WeightedData planned(const FitResult& fitted, const CapturePlace& place, double velocity) {
+  const std::vector<Observation>& points = fitted.data.points;
   const auto distance = [&](const Observation& o) {
     const bool elsewhere = o.dataset != place.dataset || o.diameter != place.diameter;
     return std::abs(std::log(o.velocity / velocity)) + (elsewhere ? 100.0 : 0.0) +
            (o.censored ? 1000.0 : 0.0);
   };
-  for (const Observation& o : data.points) {
-    if (nearest == nullptr || distance(o) < distance(*nearest)) nearest = &o;
-  }
-  Observation moved = *nearest;
+  const auto nearest = std::min_element(
+      points.begin(), points.end(),
+      [&](const Observation& a, const Observation& b) { return distance(a) < distance(b); });
+  const std::array<std::size_t, 1> own = {static_cast<std::size_t>(nearest - points.begin())};
+  WeightedData one{fitted.data.subset(own), fitted.weights.subset(own)};
+  Observation& moved = one.data.points.front();
   moved.dataset = place.dataset;
   moved.diameter = place.diameter;
   moved.velocity = velocity;
   moved.censored = false;
   moved.captured = 0;
-  moved.weights.scatter = 0.0;
-  return moved;
+  moved.restitution =
+      predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
+          .restitution();
+  one.weights.points.front().scatter = 0.0;
+  return one;
 }
 
 std::vector<PlannedPoints> plans_for(const FitResult& fitted,
@@ -214,13 +221,9 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
     }
     velocities.push_back(fastest);
     for (const double velocity : velocities) {
-      Observations more = fitted.data;
-      more.points = {planned(fitted.data, place, velocity)};
-      more.points.front().restitution =
-          predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
-              .restitution();
-      const Eigen::MatrixXd row =
-          logarithmic_jacobian(fitted, more, joined(inner, constant_slots(fitted)));
+      const WeightedData more = planned(fitted, place, velocity);
+      const Eigen::MatrixXd row = logarithmic_jacobian(fitted, more.data, more.weights,
+                                                       joined(inner, constant_slots(fitted)));
       const Eigen::MatrixXd then =
           without_constants(fitted, fisher + planned_points * row.transpose() * row, inner.size());
       plans.push_back({place.dataset, place.diameter, velocity, place.velocity, planned_points,
@@ -249,8 +252,8 @@ Information information_at(const FitResult& fitted, const std::vector<CapturePla
   const std::vector<std::size_t> inner = inner_slots(fitted);
   information.relative_sd.assign(fitted.theta.size(), 0.0);
   if (inner.empty() || fitted.data.points.empty()) return information;
-  const Eigen::MatrixXd jacobian =
-      logarithmic_jacobian(fitted, fitted.data, joined(inner, constant_slots(fitted)));
+  const Eigen::MatrixXd jacobian = logarithmic_jacobian(fitted, fitted.data, fitted.weights,
+                                                        joined(inner, constant_slots(fitted)));
   const Eigen::MatrixXd full = jacobian.transpose() * jacobian;
   const Eigen::MatrixXd fisher = without_constants(fitted, full, inner.size());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fisher);

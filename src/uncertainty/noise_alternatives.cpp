@@ -19,7 +19,7 @@ double total_criterion(const Noise::Candidate& candidate) {
 
 std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
   std::vector<NoiseAlternative> alternatives = {{1.0, fitted}};
-  const Noise& noise = fitted.data.noise;
+  const Noise& noise = fitted.weights.noise;
   double least = INFINITY;
   for (const Noise::Candidate& candidate : noise.candidates) {
     least = std::min(least, total_criterion(candidate));
@@ -33,11 +33,14 @@ std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
     if (weight < negligible) continue;
     Observations data = fitted.data;
     data.noise.spec.variance = candidate.function;
-    data.noise.variance = candidate.function;
-    data.noise.scale = candidate.scale;
-    data.noise.candidates.clear();
-    FitResult other =
-        fit(fitted.model, data, {.several_starts = false, .start = fitted.theta, .minimiser = {}});
+    FitOptions options;
+    options.several_starts = false;
+    options.start = fitted.theta;
+    options.noise = noise;
+    options.noise->variance = candidate.function;
+    options.noise->scale = candidate.scale;
+    options.noise->candidates.clear();
+    FitResult other = fit(fitted.model, std::move(data), options);
     if (other.usable) alternatives.push_back({weight, std::move(other)});
   }
   double sum = 0.0;

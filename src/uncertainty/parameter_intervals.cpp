@@ -56,7 +56,7 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
       }
       return;
     }
-    if (!free || !fitted.data.noise.known) {
+    if (!free || !fitted.weights.noise.known) {
       for (const IntervalKind kind : values_of<IntervalKind>()) {
         set[kind] = no_interval(free ? NoInterval::noise_unknown : NoInterval::fixed);
       }
@@ -71,7 +71,7 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
 void add_profile_curves(const FitResult& fitted, double level, int threads,
                         std::vector<IntervalSet>& sets) {
   parallel_over(sets.size(), threads, [&](std::size_t j) {
-    if (!fitted.model.slots[j].free || !fitted.data.noise.known) return;
+    if (!fitted.model.slots[j].free || !fitted.weights.noise.known) return;
     sets[j].profile_curve = profile_curve(fitted, j, level, sets[j][IntervalKind::profile]);
   });
 }
@@ -86,7 +86,7 @@ void add_resampled_intervals(const FitResult& fitted, const BootstrapResult& rep
   }
   for (std::size_t j = 0; j < slots.size(); ++j) {
     IntervalSet& set = sets[j];
-    if (slots[j].free && fitted.data.noise.known)
+    if (slots[j].free && fitted.weights.noise.known)
       add_resampled(fitted, replicates, j, delete_one, level, set);
     for (const IntervalKind kind : values_of<IntervalKind>()) note_bounds(set[kind], slots[j]);
     recommend(set, sd_stated);

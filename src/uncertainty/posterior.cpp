@@ -14,7 +14,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -93,19 +93,22 @@ class Posterior {
         scaled(scale_unknown(fitted)),
         fitted_(fitted),
         data_(fitted.data),
-        log_determinant_(SharedSettings(data_.points).log_determinant()) {
-    data_.constants_weight = 1.0;
-    problem_ = impact_problem(fitted.model, data_);
+        weights_(fitted.weights),
+        log_determinant_(SharedErrors(data_, weights_).log_determinant()) {
+    weights_.noise.constants_weight = 1.0;
+    problem_ = impact_problem(fitted.model, data_, weights_);
     // ln of each point's density at its peak, for scale 1. The density of a mean is normal in e.
-    for (const Observation& point : data_.points) {
+    for (std::size_t i = 0; i < data_.points.size(); ++i) {
+      const Observation& point = data_.points[i];
+      const PointWeights& own = weights_.points[i];
       const double square = point.restitution * point.restitution;
       double ln = 0.0;
-      if (point.peaks()) ln -= 0.5 * point.weights.peak.deviance;
+      if (own.peaks(point)) ln -= 0.5 * own.peak.deviance;
       if (!point.censored) {
         ln -= 0.5 * std::log(2.0 * std::numbers::pi);
-        ln += point.peaks()
-                  ? -std::log(point.weights.mean_sd)
-                  : std::log(slope_in_restitution(weighted_residual(point, square), square));
+        ln += own.peaks(point)
+                  ? -std::log(own.mean_sd)
+                  : std::log(slope_in_restitution(weighted_residual(point, own, square), square));
       }
       peaks_.push_back(ln);
     }
@@ -217,7 +220,8 @@ class Posterior {
   }
 
   const FitResult& fitted_;
-  Observations data_;
+  const Observations& data_;
+  Weights weights_;
   double log_determinant_;
   LeastSquaresProblem problem_;
   std::vector<double> peaks_;
@@ -539,7 +543,7 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
     return result;
   }
   result.length = options.length;
-  if (fitted.data.noise.shares_errors()) {
+  if (fitted.data.share_errors()) {
     result.left_out.missing = NoLeaveOneOut::shared_errors;
   } else if (fitted.data.noise.student) {
     result.left_out.missing = NoLeaveOneOut::student;

@@ -26,10 +26,10 @@ constexpr double end_tolerance = 1e-3;  // relative tolerance of the rise at an 
 class Profile {
  public:
   Profile(const FitResult& fitted, std::size_t slot)
-      : fitted_(fitted), data_(fitted.data), slot_(slot) {
-    problem_ = impact_problem(fitted.model, data_);
+      : fitted_(fitted), weights_(fitted.weights), slot_(slot) {
+    problem_ = impact_problem(fitted.model, fitted.data, weights_);
     problem_.fixed[slot] = true;
-    least_ = fitted.objective + event_spread_offset(fitted.data);
+    least_ = fitted.objective + event_spread_offset(fitted.data, weights_);
   }
 
   /// The increase of chi2 over its minimum with the slot at `value`, minimised over the other
@@ -42,10 +42,13 @@ class Profile {
       const LeastSquaresResult refit = minimise(problem_, others, options_);
       if (!refit.ended()) return std::nullopt;
       others = refit.theta;
-      const double now = refit.sum_of_squares + event_spread_offset(data_) - least_;
-      if (!(data_.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;
+      const double now =
+          refit.sum_of_squares + event_spread_offset(fitted_.data, weights_) - least_;
+      if (!(weights_.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;
       before = now;
-      if (!renew_event_spread(fitted_.model, others, data_)) return std::nullopt;
+      auto renewed = with_event_spread_at(fitted_.model, fitted_.data, weights_, others);
+      if (!renewed) return std::nullopt;
+      weights_ = std::move(*renewed);
     }
     return before;
   }
@@ -56,7 +59,7 @@ class Profile {
   static constexpr double at_rest = 5e-3;
 
   const FitResult& fitted_;
-  Observations data_;  ///< with the spread of the last refit
+  Weights weights_;  ///< with the spread of the last refit
   LeastSquaresProblem problem_;
   std::size_t slot_;
   const LeastSquaresOptions options_ = refit_options();
@@ -88,7 +91,7 @@ class Allowance {
 /// parameters. 0 if J'J is singular.
 double free_standard_error(const FitResult& fitted, std::size_t slot) {
   if (fitted.std_error[slot] > 0.0) return fitted.std_error[slot];
-  const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data);
+  const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data, fitted.weights);
   const std::size_t n = problem.residual_count;
   const std::size_t p = fitted.theta.size();
   std::vector<double> residuals(n);

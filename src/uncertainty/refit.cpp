@@ -27,12 +27,14 @@ ReweightingOptions refit_reweighting_options() {
   return options;
 }
 
-LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
-                         std::span<const double> start) {
+LeastSquaresResult refit(const FitResult& fitted, const Observations& sample) {
+  const Noise& noise = fitted.weights.noise;
   if (sample.weights_depend_on_fit()) {
-    return reweighted_fit(model, sample, start, refit_reweighting_options()).run;
+    return reweighted_fit(fitted.model, sample, noise, fitted.theta, refit_reweighting_options())
+        .run;
   }
-  return minimise(impact_problem(model, sample), start, refit_options());
+  const Weights weights = first_weights(sample, noise);
+  return minimise(impact_problem(fitted.model, sample, weights), fitted.theta, refit_options());
 }
 
 std::optional<std::vector<double>> estimate_with_constant_moved(const FitResult& fitted,
@@ -43,7 +45,7 @@ std::optional<std::vector<double>> estimate_with_constant_moved(const FitResult&
   for (const UncertainConstant& constant : constants) data.constants.push_back(constant.stated);
   data.constants[k] = constants[k].moved(constants[k].stated, by);
   LeastSquaresResult run =
-      minimise(impact_problem(fitted.model, data), fitted.theta, refit_options());
+      minimise(impact_problem(fitted.model, data, fitted.weights), fitted.theta, refit_options());
   if (!run.ended()) return std::nullopt;
   return std::move(run.theta);
 }

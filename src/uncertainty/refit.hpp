@@ -17,10 +17,9 @@ LeastSquaresOptions refit_options();
 /// The options for the weights of a replicate.
 ReweightingOptions refit_reweighting_options();
 
-/// Refits a sample from `start`, together with its weights if they depend on the fit
-/// (`reweighted_fit`).
-LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
-                         std::span<const double> start);
+/// Refits a sample like those of `fitted` from its estimate, together with its weights if they
+/// depend on the fit (`reweighted_fit`).
+LeastSquaresResult refit(const FitResult& fitted, const Observations& sample);
 
 /// The estimate with the stated value of constant number k `by` standard deviations higher, with
 /// the weights of the fit. Nullopt if the refit fails.

@@ -1,9 +1,13 @@
 #include "uncertainty/resample.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <span>
 
 #include "estimate/capture_velocity.hpp"
@@ -11,7 +15,7 @@
 #include "estimate/misfit.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {
@@ -26,15 +30,16 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     const Observation& point = fitted.data.points[i];
     if (point.censored) continue;
-    if (point.weights.scatter > 0.0) {
-      const double expected = expected_restitution(point, fitted.prediction_squared[i]);
-      scaled[i] = (point.restitution - expected) / point.weights.mean_sd;
+    const PointWeights& own = fitted.weights.points[i];
+    if (own.scatter > 0.0) {
+      const double expected = expected_restitution(point, own, fitted.prediction_squared[i]);
+      scaled[i] = (point.restitution - expected) / own.mean_sd;
       continue;
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
-    // The residual before whitening includes the error that its setting shares.
-    const double residual = fitted.data.noise.shares_errors()
-                                ? weighted_residual(point, fitted.prediction_squared[i]).value
+    // The residual before whitening includes the errors that the point shares.
+    const double residual = fitted.data.share_errors()
+                                ? weighted_residual(point, own, fitted.prediction_squared[i]).value
                                 : fitted.residuals[i];
     scaled[i] = residual / std::pow(1.0 - h, power);
   }
@@ -54,18 +59,33 @@ std::vector<double> residual_pool(const FitResult& fitted) {
   return pool;
 }
 
-/// The groups of points that may depend on each other: one per series, or one per setting.
+/// The groups of points that may depend on each other: those of one setting, if settings share
+/// errors and series do not, else those of one series; joined where points share any other error.
 std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
+  const bool by_setting = data.share(SharedBy::setting) && !data.share(SharedBy::series);
+  std::vector<std::size_t> root(data.points.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto root_of = [&root](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> first;  // point of a source's draw
+  const auto join = [&](std::size_t source, std::size_t draw, std::size_t i) {
+    const std::size_t other = root_of(first.try_emplace({source, draw}, i).first->second);
+    const std::size_t own = root_of(i);
+    root[std::max(own, other)] = std::min(own, other);
+  };
+  for (std::size_t i = 0; i < root.size(); ++i) {
     const Observation& point = data.points[i];
-    const bool by_setting = data.noise.shares_settings() && !data.noise.series_diameter_stated;
-    found[by_setting ? std::pair(std::size_t{0}, point.setting)
-                     : std::pair(point.dataset, point.series)]
-        .push_back(i);
+    join(data.sources.size(), by_setting ? point.setting : point.batch, i);
+    for (std::size_t k = 0; k < data.sources.size(); ++k) {
+      for (const ErrorPart& part : data.sources[k]->parts(point)) join(k, part.draw, i);
+    }
   }
+  std::map<std::size_t, std::vector<std::size_t>> found;
+  for (std::size_t i = 0; i < root.size(); ++i) found[root_of(i)].push_back(i);
   std::vector<std::vector<std::size_t>> clusters;
-  for (auto& [key, points] : found) clusters.push_back(std::move(points));
+  for (auto& [point, points] : found) clusters.push_back(std::move(points));
   return clusters;
 }
 
@@ -74,18 +94,19 @@ std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
 void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStream& random,
              Observations& sample) {
   Observation& point = sample.points[i];
-  if (point.weights.scatter > 0.0 && point.counted) {
-    const double m = plan.fitted->prediction_squared[i];
-    point = redraw_captures(point, m, random.uniform());
-    point.restitution =
-        point.censored
-            ? 0.0
-            : std::max(0.0, expected_restitution(point, m) + survivors_sd(point, m) * noise);
+  const PointWeights& own = plan.fitted->weights.points[i];
+  const double m = plan.fitted->prediction_squared[i];
+  if (own.scatter > 0.0 && point.counted) {
+    const DrawnPoint drawn = redraw_captures(point, own, m, random.uniform());
+    point = drawn.point;
+    point.restitution = point.censored
+                            ? 0.0
+                            : std::max(0.0, expected_restitution(point, drawn.weights, m) +
+                                                survivors_sd(point, drawn.weights, m) * noise);
     return;
   }
   if (point.censored) return;
-  const double expected = expected_restitution(point, plan.fitted->prediction_squared[i]);
-  point.restitution = std::max(0.0, expected + point.weights.sd * noise);
+  point.restitution = std::max(0.0, expected_restitution(point, own, m) + own.sd * noise);
 }
 
 }  // namespace
@@ -94,47 +115,25 @@ std::size_t ResamplingPlan::units() const {
   return scheme == Scheme::cluster ? clusters.size() : fitted->data.points.size();
 }
 
-std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations& data) {
+std::optional<std::string> scheme_obstacle(Scheme scheme, const Observations& data) {
   const bool all_captured = std::all_of(data.points.begin(), data.points.end(),
                                         [](const Observation& point) { return point.censored; });
-  if ((scheme == Scheme::residual || scheme == Scheme::wild) && all_captured) {
-    return SchemeObstacle::no_residuals;
+  const bool by_residuals = scheme == Scheme::residual || scheme == Scheme::wild;
+  if (by_residuals && all_captured) {
+    return "no point rebounded: there are no residuals to draw from";
   }
-  if ((scheme == Scheme::residual || scheme == Scheme::cases) &&
-      (data.noise.setting_sd > 0.0 || data.noise.setting_velocity_stated)) {
-    return SchemeObstacle::shared_settings;
-  }
-  if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
-      data.noise.series_diameter_stated) {
-    return SchemeObstacle::shared_sizes;
-  }
-  if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
-      data.noise.shares_instants) {
-    return SchemeObstacle::shared_instants;
+  for (const ErrorSource* source : data.sources) {
+    if (source->shared == SharedBy::nobody || !(by_residuals || scheme == Scheme::cases)) continue;
+    // Signs of the wild bootstrap are drawn by setting.
+    if (source->shared == SharedBy::setting && scheme == Scheme::wild) continue;
+    return fmt::format(
+        "points share an error ({}): single points cannot be exchanged, whole {} can (cluster)",
+        source->names.stated_by, source->shared == SharedBy::setting ? "settings" : "series");
   }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
-    return SchemeObstacle::single_series;
+    return "all points belong to one series or share an error: there is nothing to exchange";
   }
   return std::nullopt;
-}
-
-std::string obstacle_words(SchemeObstacle obstacle) {
-  switch (obstacle) {
-    case SchemeObstacle::no_residuals:
-      return "no point rebounded: there are no residuals to draw from";
-    case SchemeObstacle::single_series:
-      return "all points belong to one series: there is nothing to exchange";
-    case SchemeObstacle::shared_settings:
-      return "points of one setting share an error: single points cannot be exchanged, whole "
-             "settings can (cluster)";
-    case SchemeObstacle::shared_instants:
-      return "successive bounces of one launch share instants: single points cannot be exchanged, "
-             "whole series can (cluster)";
-    case SchemeObstacle::shared_sizes:
-      return "points of one series share an error of their diameter: single points cannot be "
-             "exchanged, whole series can (cluster)";
-  }
-  return "";
 }
 
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
@@ -145,10 +144,10 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   if (asked == Scheme::automatic) {
     const bool residuals = !scheme_obstacle(Scheme::wild, data);
     plan.scheme = data.noise.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
-    plan.because = data.noise.sd_stated                ? SchemeBecause::sd_stated
-                   : residuals                         ? SchemeBecause::sd_not_stated
-                   : data.noise.series_diameter_stated ? SchemeBecause::shared_sizes
-                                                       : SchemeBecause::no_residuals;
+    plan.because = data.noise.sd_stated  ? SchemeBecause::sd_stated
+                   : residuals           ? SchemeBecause::sd_not_stated
+                   : data.share_errors() ? SchemeBecause::shared_errors
+                                         : SchemeBecause::no_residuals;
   }
   if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
   if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);
@@ -156,26 +155,26 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   return plan;
 }
 
-void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
+void resample_parametric(const ResamplingPlan& plan, std::span<const double> shared_errors,
                          RandomStream& random, Observations& sample) {
   // If constants are redrawn, the simulated noise is added to the measured values, which follow the
   // true constants, not to the curve of the stated ones.
-  const ImpactModel& model = plan.fitted->model;
-  const bool other_constants = !model.constants.empty() && !model.adjusts_constants();
-  sample.points = plan.fitted->data.points;
+  const FitResult& fitted = *plan.fitted;
+  const bool other_constants = !fitted.model.constants.empty() && !fitted.model.adjusts_constants();
+  sample.points = fitted.data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    sample.points[i] =
-        simulate_observation(plan.fitted->data.points[i],
-                             shifted_square(plan.fitted->prediction_squared[i], setting_errors[i]),
-                             own_noise_scale(plan.fitted->data.points[i], plan.fitted->noise_scale),
-                             plan.fitted->data.noise.student, random);
-    if (!other_constants || !plan.fitted->data.noise.sd_stated) continue;
-    const Observation& measured = plan.fitted->data.points[i];
+    const Observation& measured = fitted.data.points[i];
+    const PointWeights& own = fitted.weights.points[i];
+    const double m = fitted.prediction_squared[i];
     Observation& point = sample.points[i];
+    point = simulate_observation(measured, own, shifted_square(m, shared_errors[i]),
+                                 own_noise_scale(fitted.data, i, fitted.noise_scale),
+                                 fitted.data.noise.student, random)
+                .point;
+    if (!other_constants || !fitted.data.noise.sd_stated) continue;
     if (measured.censored || point.censored) continue;
-    point.restitution =
-        std::max(0.0, point.restitution + measured.restitution -
-                          expected_restitution(measured, plan.fitted->prediction_squared[i]));
+    point.restitution = std::max(
+        0.0, point.restitution + measured.restitution - expected_restitution(measured, own, m));
   }
 }
 
@@ -191,7 +190,7 @@ void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observation
   std::map<std::size_t, double> sign_of;  // sign of each setting, if its points share an error
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     const std::size_t unit =
-        plan.fitted->data.noise.shares_settings() ? sample.points[i].setting : i;
+        plan.fitted->data.share(SharedBy::setting) ? sample.points[i].setting : i;
     const auto [sign, is_new] = sign_of.try_emplace(unit, 1.0);
     if (is_new && random.uniform() < 0.5) sign->second = -1.0;
     disturb(plan, i, sign->second * plan.residuals[i], random, sample);
@@ -208,17 +207,18 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points.clear();
-  // New number of each (draw, setting).
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;
-  // New number of each (draw, launch).
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> launches;
+  // A setting, batch or launch that is drawn twice becomes two: new numbers by (draw, number).
+  std::array<std::map<std::pair<std::size_t, std::size_t>, std::size_t>, 3> again;
+  constexpr std::array numbers = {&SharedNumbers::setting, &SharedNumbers::batch,
+                                  &SharedNumbers::launch};
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
       Observation& point = sample.points.emplace_back(plan.fitted->data.points[i]);
-      // A setting that is drawn twice becomes two settings.
-      point.setting = again.try_emplace({k, point.setting}, again.size()).first->second;
-      if (point.launch == Observation::no_launch) continue;
-      point.launch = launches.try_emplace({k, point.launch}, launches.size()).first->second;
+      for (std::size_t n = 0; n < numbers.size(); ++n) {
+        std::size_t& number = point.*numbers[n];
+        if (number == Observation::no_launch) continue;
+        number = again[n].try_emplace({k, number}, again[n].size()).first->second;
+      }
     }
   }
 }
@@ -234,19 +234,18 @@ void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64
   }
 }
 
-std::vector<double> setting_errors_of(const ResamplingPlan& plan, std::uint64_t seed,
-                                      std::uint64_t index) {
-  RandomStream random(seed, RandomPurpose::settings, index);
-  return draw_setting_errors(plan.fitted->data, plan.fitted->noise_scale, random);
-}
-
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
               Observations& sample) {
   resample_constants(*plan.fitted, seed, index, sample);
   RandomStream random(seed, RandomPurpose::bootstrap, index);
   switch (plan.scheme) {
-    case Scheme::parametric:
-      return resample_parametric(plan, setting_errors_of(plan, seed, index), random, sample);
+    case Scheme::parametric: {
+      RandomStream of_shared(seed, RandomPurpose::settings, index);
+      const FitResult& fitted = *plan.fitted;
+      return resample_parametric(
+          plan, draw_shared_errors(fitted.data, fitted.weights, fitted.noise_scale, of_shared),
+          random, sample);
+    }
     case Scheme::residual:
       return resample_residual(plan, random, sample);
     case Scheme::wild:
@@ -283,8 +282,8 @@ std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
   resample(plan, seed, index, sample);
   for (std::size_t i = 0; i < n; ++i) {
     if (sample.points[i].censored) continue;
-    values[i] =
-        (sample.points[i].restitution - plan.fitted->prediction[i]) / sample.points[i].weights.sd;
+    values[i] = (sample.points[i].restitution - plan.fitted->prediction[i]) /
+                plan.fitted->weights.points[i].sd;
   }
   return values;
 }
@@ -298,7 +297,8 @@ bool uses_sandwich(Scheme scheme) {
 
 /// The sandwich covariance: the part of the points from their residuals, the part of the constants
 /// from their known errors.
-std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observations& data) {
+std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observations& data,
+                                double constants_weight) {
   const std::vector<double> C = scaled_covariance(data, run.covariance, 1.0);
   const std::size_t p = run.theta.size();
   const std::size_t n = data.points.size();
@@ -311,7 +311,7 @@ std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observation
       step[a] = 0.0;
       for (std::size_t b = 0; b < p; ++b) step[a] += C[a * p + b] * jacobian[k * p + b];
     }
-    const double square = data.constants_weight * data.constants_weight;
+    const double square = constants_weight * constants_weight;
     for (std::size_t a = 0; a < p; ++a) {
       for (std::size_t b = 0; b < p; ++b) covariance[a * p + b] += square * step[a] * step[b];
     }
@@ -322,14 +322,16 @@ std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observation
 }  // namespace
 
 std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
-                                         const FitResult& fitted, const ResamplingPlan& plan) {
+                                         const Weights& weights, const FitResult& fitted,
+                                         const ResamplingPlan& plan) {
   if (run.covariance.empty()) return {};
   // If the noise is estimated, this run has estimated it again.
   const double scale = data.noise.sd_stated ? fitted.noise_scale : 1.0;
   std::vector<double> covariance = uses_sandwich(plan.scheme)
-                                       ? sandwich_of(run, data)
+                                       ? sandwich_of(run, data, weights.noise.constants_weight)
                                        : scaled_covariance(data, run.covariance, scale);
-  const auto added = event_spread_covariance(fitted.model, run.theta, data, run.covariance);
+  const auto added =
+      event_spread_covariance(fitted.model, run.theta, data, weights, run.covariance);
   for (std::size_t k = 0; k < added.size(); ++k) covariance[k] += added[k];
   add_constant_effects(constant_effects(fitted.model, run, data.points.size()), covariance);
   return covariance;
@@ -337,7 +339,7 @@ std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Ob
 
 std::vector<double> reference_covariance(const FitResult& fitted, const ResamplingPlan& plan) {
   if (!uses_sandwich(plan.scheme) || fitted.covariance.empty()) return fitted.covariance;
-  const LeastSquaresProblem problem = impact_problem(fitted.model, plan.fitted->data);
+  const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data, fitted.weights);
   LeastSquaresResult at_fit;
   at_fit.theta = fitted.theta;
   at_fit.residuals.resize(problem.residual_count);
@@ -348,9 +350,9 @@ std::vector<double> reference_covariance(const FitResult& fitted, const Resampli
     at_fit.covariance[k] -= fitted.spread_covariance[k];
   }
   add_constant_effects(fitted.constant_effects, at_fit.covariance, -1.0);
-  const double scaled = scaled_covariance(plan.fitted->data, {1.0}, fitted.noise_scale).front();
+  const double scaled = scaled_covariance(fitted.data, {1.0}, fitted.noise_scale).front();
   for (double& entry : at_fit.covariance) entry /= scaled;
-  return replicate_covariance(at_fit, plan.fitted->data, fitted, plan);
+  return replicate_covariance(at_fit, fitted.data, fitted.weights, fitted, plan);
 }
 
 std::vector<double> roots_of_diagonal(std::span<const double> covariance, std::size_t p) {

@@ -20,26 +20,12 @@ enum class SchemeBecause {
   sd_stated,      ///< parametric: every point states its standard deviation
   sd_not_stated,  ///< wild: the scatter need not be equal everywhere
   no_residuals,   ///< parametric: no point rebounded
-  shared_sizes,   ///< parametric: points of one series share an error of their diameter
+  shared_errors,  ///< parametric: points share an error, so that single ones cannot be exchanged
 };
 template <>
 struct NamesOf<SchemeBecause> {
   static constexpr std::array<std::string_view, 5> names = {
-      "asked_for", "sd_stated", "sd_not_stated", "no_residuals", "shared_sizes"};
-};
-
-/// The reason why a scheme cannot be used.
-enum class SchemeObstacle {
-  no_residuals,     ///< no point rebounded
-  single_series,    ///< there is only one series
-  shared_settings,  ///< points of one setting share an error, but the scheme draws single points
-  shared_sizes,     ///< points of one series share an error
-  shared_instants   ///< successive bounces of one launch share errors
-};
-template <>
-struct NamesOf<SchemeObstacle> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "no_residuals", "single_series", "shared_settings", "shared_sizes", "shared_instants"};
+      "asked_for", "sd_stated", "sd_not_stated", "no_residuals", "shared_errors"};
 };
 
 /// The data from which a scheme draws, prepared once for all replicates. Refers to the fit, which
@@ -50,17 +36,15 @@ struct ResamplingPlan {
   const FitResult* fitted = nullptr;
   /// Weighted residuals; residual: the pool; wild: one for each point.
   std::vector<double> residuals;
-  std::vector<std::vector<std::size_t>> clusters;  ///< the points of each series or setting
+  /// Points that may depend on each other: of one series or setting, and all that share an error.
+  std::vector<std::vector<std::size_t>> clusters;
 
   /// The number of independent units that are drawn: points, or series.
   std::size_t units() const;
 };
 
-/// The reason why `scheme` cannot be used on `data`; nullopt if it can.
-std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations& data);
-
-/// The reason in words, for messages.
-std::string obstacle_words(SchemeObstacle obstacle);
+/// The reason why `scheme` cannot be used on `data`, in words; nullopt if it can.
+std::optional<std::string> scheme_obstacle(Scheme scheme, const Observations& data);
 
 /// Prepares the scheme `asked`. `automatic` becomes parametric if the standard deviations are
 /// stated, otherwise wild, which allows unequal scatter (parametric again if `scheme_obstacle`
@@ -68,17 +52,13 @@ std::string obstacle_words(SchemeObstacle obstacle);
 /// @pre !scheme_obstacle(asked, data)
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked);
 
-/// The errors of e that the settings of replicate `index` share [points].
-std::vector<double> setting_errors_of(const ResamplingPlan& plan, std::uint64_t seed,
-                                      std::uint64_t index);
-
 // The schemes. Each fills `sample.points` from the plan and one stream of random numbers; whatever
 // else `sample` holds is not changed. In the first three schemes a captured point stays captured
 // and uses its share of the random numbers; in the last two it is drawn with its case or series.
 
-/// e*_i = e_model,i + s sd_i z_i, z standard normal, s the fit's noise_scale. If settings share
-/// errors, `setting_errors` of e [points] are added.
-void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
+/// e*_i = e_model,i + s sd_i z_i, z standard normal, s the fit's noise_scale. `shared_errors` of e
+/// [points] are added (`draw_shared_errors`).
+void resample_parametric(const ResamplingPlan& plan, std::span<const double> shared_errors,
                          RandomStream& random, Observations& sample);
 
 /// e*_i = e_model,i + sd_i rho_i, with rho drawn from the centred r_j / sqrt(1 - h_j) of all points
@@ -96,8 +76,8 @@ void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observation
 /// Draws n whole points with replacement; makes no assumption about the noise.
 void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
-/// Draws as many whole series as there are, with replacement: points of a series may depend on each
-/// other. If settings share errors, draws whole settings.
+/// Draws as many clusters as there are, with replacement. The points of one that is drawn twice
+/// share no error with those of its other draw.
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
 /// Redraws the stated values of the uncertain material constants about those of the fit, as they
@@ -119,7 +99,8 @@ std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
 /// the fit and its replicates: from (J'J)^-1, or as the sandwich covariance if the scheme allows
 /// unequal scatter (wild, case, cluster). Empty if J'J is singular.
 std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
-                                         const FitResult& fitted, const ResamplingPlan& plan);
+                                         const Weights& weights, const FitResult& fitted,
+                                         const ResamplingPlan& plan);
 
 /// The covariance of the fit itself, computed in the same way.
 std::vector<double> reference_covariance(const FitResult& fitted, const ResamplingPlan& plan);

@@ -93,10 +93,12 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
   const double diameter = fitted.model.contacts[dataset].reference_diameter;
   comparison.result = two_point(fitted.model, data, dataset, diameter);
   const Split split = split_by_diameter(data, dataset, comparison.result.diameter);
-  comparison.full_rmse = root_mean_square(fitted.model, fitted.theta, data, split.all);
+  comparison.full_rmse =
+      root_mean_square(fitted.model, fitted.theta, data, fitted.weights, split.all);
   const bool answered = comparison.result.status != TwoPointStatus::too_few_points;
   if (answered) {
-    comparison.rmse = root_mean_square(fitted.model, comparison.result.theta, data, split.all);
+    comparison.rmse =
+        root_mean_square(fitted.model, comparison.result.theta, data, fitted.weights, split.all);
   }
   if (split.unseen.empty()) {
     comparison.nothing_held_out = NothingHeldOut::single_diameter;
@@ -104,12 +106,12 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
   }
   if (answered) {
     comparison.held_out_rmse =
-        root_mean_square(fitted.model, comparison.result.theta, data, split.unseen);
+        root_mean_square(fitted.model, comparison.result.theta, data, fitted.weights, split.unseen);
   }
   const FitResult on_one = fit_of_diameter(fitted, dataset, split);
   if (on_one.usable) {
     comparison.full_held_out_rmse =
-        root_mean_square(fitted.model, on_one.theta, data, split.unseen);
+        root_mean_square(fitted.model, on_one.theta, data, fitted.weights, split.unseen);
   } else {
     comparison.nothing_held_out = NothingHeldOut::refit_failed;
     comparison.refit_failure = on_one.failure;

@@ -92,7 +92,10 @@ class Comparison {
   /// The sum of squares by CVODES; infinite where it has no answer.
   double chi2(const std::vector<double>& theta) const {
     std::vector<double> residuals(case_.data.points.size());
-    if (!impact_problem(exact_, case_.data).evaluate(theta, residuals, {})) return HUGE_VAL;
+    const Weights weights = first_weights(case_.data);
+    if (!impact_problem(exact_, case_.data, weights).evaluate(theta, residuals, {})) {
+      return HUGE_VAL;
+    }
     double sum = 0.0;
     for (const double r : residuals) sum += r * r;
     return sum;
@@ -122,7 +125,8 @@ class Comparison {
 
 Json recoil_fit(const Case& the_case, const Comparison& comparison) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  const LeastSquaresProblem problem = impact_problem(the_case.model, the_case.data);
+  const Weights weights = first_weights(the_case.data);
+  const LeastSquaresProblem problem = impact_problem(the_case.model, the_case.data, weights);
   LeastSquaresResult refit;
   const double seconds = median_seconds(
       [&] { refit = minimise(problem, the_case.model.initial(), peer_options()); }, 1.0, 5);

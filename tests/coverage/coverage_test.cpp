@@ -72,7 +72,7 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     const CaptureVelocity v = capture_velocity(fitted.model, fitted.theta, 0, at.diameter);
     unknowing += std::pow(off / logarithmic_error(v, less), 2) / sets;
     FitResult fixed = fitted;
-    fixed.data.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
+    fixed.weights.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
     for (const bool settled : {true, false}) {
       const Interval profile = profile_interval(settled ? fitted : fixed, 1, 0.95);
       ASSERT_TRUE(profile.available());

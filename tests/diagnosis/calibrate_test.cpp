@@ -22,9 +22,9 @@ TEST_F(SearchWithExactLaws, GainsByChanceAreThoseOfRefits) {
       const auto index = static_cast<std::uint64_t>(b);
       const std::vector<double> r = residuals_of_sample(*base_, index).value();
       residuals.col(b) = Eigen::Map<const Eigen::VectorXd>(r.data(), residuals.rows());
-      const Observations sample = simulate_base(*base_, index);
-      const Refit alone = refit_candidate(base_->candidate, sample, base_->refit.theta, 0);
-      const Refit with = refit_candidate(candidate, sample, near, 4);
+      const auto [sample, weights] = simulate_base(*base_, index);
+      const Refit alone = refit_candidate(base_->candidate, sample, weights, base_->refit.theta, 0);
+      const Refit with = refit_candidate(candidate, sample, weights, near, 4);
       refitted.push_back(corrected_criterion(sample, alone, base_->candidate.free_count) -
                          corrected_criterion(sample, with, candidate.free_count));
     }

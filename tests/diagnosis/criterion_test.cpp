@@ -64,7 +64,9 @@ TEST(Candidate, FindsTheParametersThatMadeThePoints) {
   synthetic::Design design;
   const std::vector<Dataset> data = {synthetic::dataset(design)};
   const Candidate base = make_candidate(synthetic::spec(), data, {});
-  const Refit refit = refit_candidate(base, gather(data), std::vector<double>{6e-3, 0.05, 8.9}, 2);
+  const Observations points = gather(data);
+  const Refit refit =
+      refit_candidate(base, points, first_weights(points), std::vector<double>{6e-3, 0.05, 8.9}, 2);
   ASSERT_TRUE(refit.usable);
   EXPECT_NEAR(refit.theta[0], design.C_H, 1e-5);
   EXPECT_NEAR(refit.theta[1], design.C_A, 1e-4);
@@ -86,7 +88,9 @@ TEST(RefitCandidate, MovesAConstantWhereThePointsKnowMoreOfItThanIsStated) {
         {Body::surface, Constant::surface_energy, 0.9 * (first_is_known ? unknown : known)}};
     const Candidate base = make_candidate(spec, {data}, {});
     ASSERT_EQ(base.model.constants.size(), 2U);
-    const Refit refit = refit_candidate(base, gather({data}, spec.noise), base.model.initial(), 1);
+    const Observations points = gather({data}, spec.noise);
+    const Refit refit =
+        refit_candidate(base, points, first_weights(points), base.model.initial(), 1);
     ASSERT_TRUE(refit.usable);
     const std::size_t first = base.model.first_constant();
     EXPECT_EQ(refit.moving[first], !first_is_known);

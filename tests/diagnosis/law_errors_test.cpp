@@ -69,6 +69,7 @@ struct Yielding {
   Candidate base = make_candidate(synthetic::spec(), data, {});
   Candidate yielding = make_candidate(synthetic::spec(), data, {"plastic_yield"});
   Observations points = gather(data);
+  Weights weights = first_weights(points);
   LawErrors laws{0.1, 0.0, smooth_functions(points)};
 };
 
@@ -79,7 +80,8 @@ TEST(LawErrors, OfAMechanismThatDoesNothingAreNothing) {
     const ParameterSlot& slot = made.yielding.model.slots[j];
     if (made.yielding.adds(slot)) theta[j] = slot.parameter->null_value;
   }
-  const auto columns = law_error_columns(made.yielding, made.points, theta, made.laws);
+  const auto columns =
+      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws);
   ASSERT_TRUE(columns);
   EXPECT_EQ(columns->norm(), 0.0);
 }
@@ -96,15 +98,17 @@ TEST(LawErrors, AreATenthOfTheEffect) {
     if (made.yielding.adds(made.yielding.model.slots[j]) && made.yielding.model.slots[j].free)
       own = j;
   }
-  const auto columns = law_error_columns(made.yielding, made.points, theta, made.laws);
+  const auto columns =
+      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws);
   ASSERT_TRUE(columns);
   ASSERT_EQ(columns->cols(), 2);
   EXPECT_EQ(columns->col(0).norm(), 0.0);  // the base model is exact here
   const double whole = columns->col(1).norm();
   EXPECT_GT(whole, 0.0);
   made.laws.mechanism = 0.05;
-  EXPECT_NEAR(law_error_columns(made.yielding, made.points, theta, made.laws)->col(1).norm(),
-              0.5 * whole, 1e-12 * whole);
+  EXPECT_NEAR(
+      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws)->col(1).norm(),
+      0.5 * whole, 1e-12 * whole);
   EXPECT_GT(own, 0U);
 }
 
@@ -123,8 +127,10 @@ TEST(LawErrors, TakeUpATenthOfTheLossesThatAreBent) {
   const std::vector<Dataset> data = {bent};
   const Candidate base = make_candidate(synthetic::spec(), data, {});
   const Observations points = gather(data);
-  const Refit exact = refit_candidate(base, points, base.model.initial(), 2);
-  const Refit loose = with_law_errors(base, points, exact, {0.1, 0.03, smooth_functions(points)});
+  const Weights weights = first_weights(points);
+  const Refit exact = refit_candidate(base, points, weights, base.model.initial(), 2);
+  const Refit loose =
+      with_law_errors(base, points, weights, exact, {0.1, 0.03, smooth_functions(points)});
   ASSERT_TRUE(exact.usable);
   ASSERT_TRUE(loose.usable);
   EXPECT_GT(exact.chi2, 60.0);
@@ -140,7 +146,8 @@ TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
   const Fold& fold = folds.front();
   const std::vector<double> theta = {4e-3, 0.04, 8.9};
   // At a fit that cannot move: the other points are fitted from where the truth is.
-  const auto predicted = predict_folds(made.base, made.points, made.laws, {fold}, theta, 1).front();
+  const auto predicted =
+      predict_folds(made.base, made.points, made.weights, made.laws, {fold}, theta, 1).front();
   ASSERT_TRUE(predicted.usable);
   Observations seen = made.points, unseen = made.points;
   seen.points.clear();
@@ -151,10 +158,11 @@ TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
     (inside ? unseen : seen).points.push_back(made.points.points[i]);
     if (!inside) others.push_back(i);
   }
-  const Refit refit = with_law_errors(made.base, seen, refit_candidate(made.base, seen, theta, 2),
-                                      made.laws.of(others));
+  const Refit refit = with_law_errors(
+      made.base, seen, first_weights(seen),
+      refit_candidate(made.base, seen, first_weights(seen), theta, 2), made.laws.of(others));
   const auto log_likelihood = [&](const Observations& some, const LawErrors& laws) {
-    const auto U = law_error_columns(made.base, some, refit.theta, laws);
+    const auto U = law_error_columns(made.base, some, first_weights(some), refit.theta, laws);
     const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(U->rows(), U->rows()) + *U * U->transpose();
     Eigen::VectorXd r(U->rows());
     const std::vector<Prediction> at = [&] {
@@ -164,7 +172,9 @@ TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
     }();
     for (Eigen::Index i = 0; i < r.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      r(i) = weighted_residual(some.points[k], at[k].restitution_squared).value;
+      r(i) = weighted_residual(some.points[k], first_weights(some).points[k],
+                               at[k].restitution_squared)
+                 .value;
     }
     return r.dot(C.ldlt().solve(r)) + std::log(C.determinant());
   };

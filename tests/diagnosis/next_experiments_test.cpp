@@ -94,8 +94,9 @@ TEST_F(NextExperiments, WatchACauseWhileItIsTakenAway) {
 
 TEST(ScatterOfOneEvent, IsThatOfTheNearestPointInLogVelocity) {
   synthetic::Case c = synthetic::noisy_case();
-  for (Observation& point : c.fitted.data.points) {
-    point.weights.sd = point.velocity < 10.0 ? 0.02 : 0.005;
+  for (std::size_t i = 0; i < c.fitted.data.points.size(); ++i) {
+    Observation& point = c.fitted.data.points[i];
+    c.fitted.weights.points[i].sd = point.velocity < 10.0 ? 0.02 : 0.005;
     point.events = 1;
   }
   EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 0, 3.0), 0.02);
@@ -104,7 +105,7 @@ TEST(ScatterOfOneEvent, IsThatOfTheNearestPointInLogVelocity) {
 
 TEST(ScatterOfOneEvent, IsAThousandthWhereLessIsStated) {
   synthetic::Case c = synthetic::noisy_case();
-  for (Observation& point : c.fitted.data.points) point.weights.sd = 1e-6;
+  for (PointWeights& own : c.fitted.weights.points) own.sd = 1e-6;
   EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 0, 3.0), 1e-3);
   EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 5, 3.0), 1e-3);  // a dataset without points
 }

@@ -18,6 +18,7 @@ constexpr std::size_t speeds = 12;
 /// Three diameters at twelve velocities, and a model of one parameter that moves all points alike.
 struct Case {
   Observations data;
+  Weights weights;
   Refit fitted;
   std::vector<double> predicted;
 
@@ -29,8 +30,8 @@ struct Case {
         point.diameter = 1e-6 * std::pow(2.0, static_cast<double>(s));
         point.velocity = std::pow(1.4, static_cast<double>(v));
         point.restitution = 0.7;
-        point.weights.sd = 0.02;
         data.points.push_back(point);
+        weights.points.emplace_back().sd = 0.02;
       }
     }
     fitted.usable = true;
@@ -40,7 +41,7 @@ struct Case {
     fitted.jacobian.assign(data.points.size(), 1.0);
     predicted.assign(data.points.size(), 0.49);
   }
-  StructureStatistics statistics() const { return {data, fitted, predicted}; }
+  StructureStatistics statistics() const { return {data, weights, fitted, predicted}; }
 };
 
 std::vector<double> noise(std::mt19937& random) {
@@ -65,7 +66,7 @@ Structure structure_with(const std::vector<double>& shape, unsigned seed) {
   std::vector<double> r = noise(random);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += shape[i];
   made.fitted.residuals = made.statistics().residuals_of_noise({r}).front();
-  return quick_structure(made.data, made.fitted, made.predicted,
+  return quick_structure(made.data, made.weights, made.fitted, made.predicted,
                          white_noise(499, made.data.points.size(), 7));
 }
 
@@ -86,7 +87,7 @@ TEST(Structure, AccusesPureNoiseInFivePerCentOfCases) {
   for (int k = 0; k < cases; ++k) {
     made.fitted.residuals = made.statistics().residuals_of_noise({noise(random)}).front();
     const Structure found =
-        quick_structure(made.data, made.fitted, made.predicted,
+        quick_structure(made.data, made.weights, made.fitted, made.predicted,
                         white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
     accused += found.p_value <= 0.05 ? 1 : 0;
   }
@@ -127,7 +128,7 @@ TEST(Structure, TellsLargeScatterFromShape) {
     made.fitted.residuals = made.statistics().residuals_of_noise({r}).front();
     made.data.noise.sd_stated = false;  // nobody said how large it should be
     const Structure found =
-        quick_structure(made.data, made.fitted, made.predicted,
+        quick_structure(made.data, made.weights, made.fitted, made.predicted,
                         white_noise(199, made.data.points.size(), static_cast<std::uint64_t>(k)));
     for (const StructureTest& test : found.tests)
       ASSERT_NE(test.question, StructureQuestion::scatter);
@@ -135,7 +136,7 @@ TEST(Structure, TellsLargeScatterFromShape) {
   }
   EXPECT_LE(accused, 12);  // binomial with 5 %: more has a chance of 1 in 500
   made.data.noise.sd_stated = true;
-  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted,
+  EXPECT_LE(p_of(quick_structure(made.data, made.weights, made.fitted, made.predicted,
                                  white_noise(199, made.data.points.size(), 1)),
                  StructureQuestion::scatter),
             0.01);
@@ -163,6 +164,7 @@ TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {
 /// Drops from heights 2, 4, ... m/s apart, and a model of one parameter, 1 - e^2 = c V.
 struct Drops {
   Observations data;
+  Weights weights;
   Refit fitted;
   std::vector<double> predicted;
 
@@ -176,8 +178,8 @@ struct Drops {
         predicted.push_back(1.0 - 0.03 * point.velocity);
         // Single readings, so that the weights of one height differ.
         point.restitution = std::sqrt(predicted.back()) + 0.01 * (i % 3 - 1);
-        point.weights.sd = 0.01;
         data.points.push_back(point);
+        weights.points.emplace_back().sd = 0.01;
       }
     }
     fitted.usable = true;
@@ -189,7 +191,7 @@ struct Drops {
     fitted.residuals.assign(data.points.size(), 0.0);
   }
   double slope(std::size_t i) const {
-    return weighted_residual(data.points[i], predicted[i], std::nullopt).slope;
+    return weighted_residual(data.points[i], weights.points[i], predicted[i], std::nullopt).slope;
   }
   /// p-value of noise with an error of e of `off[i]`.
   double p_of(std::mt19937& random, const std::vector<double>& off, std::uint64_t seed) {
@@ -198,9 +200,10 @@ struct Drops {
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       r.push_back(normal(random) + off[i] * 2.0 * std::sqrt(predicted[i]) * slope(i));
     }
-    const StructureStatistics statistics(data, fitted, predicted);
+    const StructureStatistics statistics(data, weights, fitted, predicted);
     fitted.residuals = statistics.residuals_of_noise({r}).front();
-    return quick_structure(data, fitted, predicted, white_noise(199, data.points.size(), seed))
+    return quick_structure(data, weights, fitted, predicted,
+                           white_noise(199, data.points.size(), seed))
         .p_value;
   }
 };
@@ -208,15 +211,16 @@ struct Drops {
 TEST(Structure, AsksNothingOfVelocityWithNoMoreVelocitiesThanParameters) {
   for (const bool stated : {false, true}) {
     const Drops drops(1, 10, stated);
-    const StructureStatistics statistics(drops.data, drops.fitted, drops.predicted);
+    const StructureStatistics statistics(drops.data, drops.weights, drops.fitted, drops.predicted);
     for (const StructureQuestion question : values_of<StructureQuestion>()) {
       EXPECT_EQ(statistics.asks(question), stated && question == StructureQuestion::scatter)
           << name_of(question);
     }
   }
   Drops unknown(5, 3, false);
-  unknown.data.noise.known = false;
-  const StructureStatistics statistics(unknown.data, unknown.fitted, unknown.predicted);
+  unknown.weights.noise.known = false;
+  const StructureStatistics statistics(unknown.data, unknown.weights, unknown.fitted,
+                                       unknown.predicted);
   for (const StructureQuestion question : values_of<StructureQuestion>()) {
     EXPECT_FALSE(statistics.asks(question));
   }
@@ -255,7 +259,8 @@ TEST(Structure, SeesACurveThatIsOffByThreeStandardErrorsOfAMean) {
       std::vector<double> off;
       for (const Observation& point : drops.data.points) off.push_back(std::log(point.velocity));
       // What the model leaves of it, scaled so that the root mean square over heights is 3 errors.
-      const StructureStatistics statistics(drops.data, drops.fitted, drops.predicted);
+      const StructureStatistics statistics(drops.data, drops.weights, drops.fitted,
+                                           drops.predicted);
       std::vector<double> r;
       for (std::size_t i = 0; i < off.size(); ++i) {
         r.push_back(off[i] * 2.0 * std::sqrt(drops.predicted[i]) * drops.slope(i));

@@ -119,7 +119,7 @@ Dataset read_from(unsigned seed, Method method, double error) {
 
 bool counts_errors(const Diagnosis& found) { return !rival_errors(found).empty(); }
 
-const UnstatedErrors* find(const std::vector<UnstatedErrors>& all, ErrorSource source) {
+const UnstatedErrors* find(const std::vector<UnstatedErrors>& all, UnstatedSource source) {
   const auto at = std::find_if(all.begin(), all.end(), [&](const UnstatedErrors& errors) {
     return errors.source == source;
   });
@@ -129,7 +129,7 @@ const UnstatedErrors* find(const std::vector<UnstatedErrors>& all, ErrorSource s
 TEST(UnstatedErrors, UncertainVelocitiesAreFound) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const std::vector<UnstatedErrors> all = asked(measured(seed, 0.04, 1.0));
-    const UnstatedErrors* const velocities = find(all, ErrorSource::velocity_errors);
+    const UnstatedErrors* const velocities = find(all, UnstatedSource::velocity_errors);
     ASSERT_NE(velocities, nullptr) << seed;
     EXPECT_EQ(velocities, &all.front()) << seed;
     EXPECT_TRUE(velocities->leave_nothing()) << velocities->remaining_p;
@@ -141,7 +141,7 @@ TEST(UnstatedErrors, UncertainVelocitiesAreFound) {
 TEST(UnstatedErrors, DeviationsThatAreTooSmallAreFound) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const std::vector<UnstatedErrors> all = asked(measured(seed, 0.0, 1.8));
-    const UnstatedErrors* const larger = find(all, ErrorSource::larger_deviations);
+    const UnstatedErrors* const larger = find(all, UnstatedSource::larger_deviations);
     ASSERT_NE(larger, nullptr) << seed;
     EXPECT_TRUE(larger->leave_nothing()) << larger->remaining_p;
     EXPECT_NEAR(std::log(larger->value / 1.8), 0.0, 0.35) << seed;  // 11 % at one sigma
@@ -152,7 +152,7 @@ TEST(UnstatedErrors, AreNotThoseOfAFewPointsFarOff) {
   Dataset data = measured(2, 0.0, 1.0);
   for (const std::size_t odd : {7U, 17U, 31U}) data.points[odd].restitution -= 10.0 * stated_sd;
   const std::vector<UnstatedErrors> all = asked(data);
-  const UnstatedErrors* const larger = find(all, ErrorSource::larger_deviations);
+  const UnstatedErrors* const larger = find(all, UnstatedSource::larger_deviations);
   ASSERT_NE(larger, nullptr);
   EXPECT_LT(larger->delta_aicc, -10.0);  // all the same, they would fit better
   EXPECT_FALSE(larger->leave_nothing()) << larger->remaining_p;
@@ -163,7 +163,7 @@ TEST(Diagnose, UncertainVelocitiesAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.04, 1.0));
   EXPECT_EQ(found.verdict(), Verdict::unexplained);
   EXPECT_TRUE(found.named().empty() && found.rivals().empty());
-  EXPECT_NE(find(rival_errors(found), ErrorSource::velocity_errors), nullptr);
+  EXPECT_NE(find(rival_errors(found), UnstatedSource::velocity_errors), nullptr);
 }
 
 TEST(Diagnose, DeviationsThatAreTooSmallAreNoCause) {
@@ -202,15 +202,15 @@ TEST(UnstatedErrors, AreNotAskedForWhereNoneAreStated) {
 
 TEST(UnstatedErrors, VelocityErrorsAreNotAskedForWhereTheyAreStated) {
   Dataset data = measured(1, 0.04, 1.0);
-  ASSERT_NE(find(asked(data), ErrorSource::velocity_errors), nullptr);
+  ASSERT_NE(find(asked(data), UnstatedSource::velocity_errors), nullptr);
   for (ImpactPoint& point : data.points) point.velocity_sd = 0.002 * point.incident_velocity;
-  EXPECT_EQ(find(asked(data), ErrorSource::velocity_errors), nullptr);
+  EXPECT_EQ(find(asked(data), UnstatedSource::velocity_errors), nullptr);
 }
 
 TEST(UnstatedErrors, OfReadingsAreFoundOnTheScaleOfTheInstrument) {
   for (const auto& [method, source, error] :
-       {std::tuple(Method::drop_heights, ErrorSource::height_readings, 0.06),
-        std::tuple(Method::bounce_intervals, ErrorSource::time_readings, 0.04)}) {
+       {std::tuple(Method::drop_heights, UnstatedSource::height_readings, 0.06),
+        std::tuple(Method::bounce_intervals, UnstatedSource::time_readings, 0.04)}) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
       const std::vector<UnstatedErrors> all = asked(read_from(seed, method, error));
       const UnstatedErrors* const readings = find(all, source);
@@ -236,12 +236,12 @@ TEST(Diagnose, ReadingErrorsAreNoCause) {
   const Diagnosis found = diagnosed(read_from(1, Method::bounce_intervals, 0.04));
   EXPECT_EQ(found.verdict(), Verdict::unexplained);
   EXPECT_TRUE(found.named().empty() && found.rivals().empty());
-  EXPECT_NE(find(rival_errors(found), ErrorSource::time_readings), nullptr);
+  EXPECT_NE(find(rival_errors(found), UnstatedSource::time_readings), nullptr);
 }
 
 TEST(UnstatedErrors, OfASettingAreSharedByItsPoints) {
   const std::vector<UnstatedErrors> all = asked(drops(1, 0.02));
-  const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+  const UnstatedErrors* const shared = find(all, UnstatedSource::shared_setting);
   ASSERT_NE(shared, nullptr);
   EXPECT_TRUE(shared->leave_nothing());
   // Of six draws, two of them taken by C_H and C_A: within a factor of 2.2 nearly always.
@@ -252,7 +252,7 @@ TEST(UnstatedErrors, OfASettingAreSharedByItsPoints) {
 TEST(UnstatedErrors, OfASettingAreNotSeenWhereThereAreNone) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const std::vector<UnstatedErrors> all = asked(drops(seed, 0.0));
-    const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+    const UnstatedErrors* const shared = find(all, UnstatedSource::shared_setting);
     EXPECT_LT(shared == nullptr ? 0.0 : shared->value, stated_sd) << seed;
   }
 }
@@ -266,9 +266,9 @@ TEST(UnstatedErrors, AColumnSaysWhichPointsShareASetting) {
     data.points[i].setting = fmt::format("day {}", i % 8);
     data.points[i].restitution += i % 2 == 0 ? 0.02 : -0.02;
   }
-  EXPECT_EQ(find(asked(data), ErrorSource::shared_setting), nullptr);
+  EXPECT_EQ(find(asked(data), UnstatedSource::shared_setting), nullptr);
   const std::vector<UnstatedErrors> all = asked(data, 0.0);
-  const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+  const UnstatedErrors* const shared = find(all, UnstatedSource::shared_setting);
   ASSERT_NE(shared, nullptr);
   EXPECT_NEAR(shared->value, 0.02, 0.01);
   EXPECT_LT(shared->delta_aicc, -100.0);

@@ -17,92 +17,95 @@ namespace recoil {
 namespace {
 
 /// 14 of 20 impacts rebounded, and differ.
-Observation mixed_point() {
-  Observation point;
+DrawnPoint mixed_point() {
+  DrawnPoint made;
+  auto& [point, weights] = made;
   point.restitution = 0.36;
-  point.weights.sd = 0.03;
-  point.weights.mean_sd = 0.03;
+  weights.sd = 0.03;
+  weights.mean_sd = 0.03;
   point.events = 20;
   point.captured = 6;
   point.counted = true;
-  point.weights.scatter = 0.15;
-  point.weights.shift = -0.01;
-  return point;
+  weights.scatter = 0.15;
+  weights.shift = -0.01;
+  return made;
 }
 
 TEST(Captures, CountsAloneGiveTheBinomialEstimate) {
-  Observation point = mixed_point();
-  point.weights.mean_sd = 1e4;  // the mean says nothing
-  locate_peak(point);
+  auto [point, weights] = mixed_point();
+  weights.mean_sd = 1e4;  // the mean says nothing
+  locate_peak(point, weights);
   const double u = gsl_cdf_ugaussian_Pinv(14.0 / 20.0);
-  EXPECT_NEAR(point.weights.peak.at, u * point.weights.scatter - point.weights.shift, 1e-7);
+  EXPECT_NEAR(weights.peak.at, u * weights.scatter - weights.shift, 1e-7);
   // r^2 is the deviance of 6 in 20 under p = 1/2: 2 (6 ln 0.6 + 14 ln 1.4), at u = 0.
-  const double r = weighted_residual(point, -point.weights.shift).value;
+  const double r = weighted_residual(point, weights, -weights.shift).value;
   EXPECT_NEAR(r * r, 2.0 * (6.0 * std::log(0.6) + 14.0 * std::log(1.4)), 1e-6);
   EXPECT_GT(r, 0.0);  // the point lies above
 }
 
 TEST(Captures, AllCapturedIsTobitToThePowerOfTheCountWhereImpactsDiffer) {
   Observation point;
-  point.weights.sd = 0.01;
-  point.weights.scatter = 0.02;
+  PointWeights weights;
+  weights.sd = 0.01;
+  weights.scatter = 0.02;
   point.censored = true;
   point.events = point.captured = 7;
   // At m = 0 each impact is captured with probability 1/2.
-  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(14.0 * std::log(2.0)), 1e-12);
+  EXPECT_NEAR(weighted_residual(point, weights, 0.0).value, std::sqrt(14.0 * std::log(2.0)), 1e-12);
   // What all impacts of the point share leaves a single one: n_eff -> 1.
-  point.weights.input_sd = 100.0;
-  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-5);
+  weights.input_sd = 100.0;
+  EXPECT_NEAR(weighted_residual(point, weights, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-5);
 }
 
 TEST(Captures, AllCapturedIsOneObservationWhereNothingIsKnownOfTheImpacts) {
   Observation point;
-  point.weights.sd = 0.1;
+  PointWeights weights;
+  weights.sd = 0.1;
   point.censored = true;
   point.events = point.captured = 40;
-  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-12);
+  EXPECT_NEAR(weighted_residual(point, weights, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-12);
   // s = sqrt(2) sd^2: one s below zero costs -2 ln Phi(1).
   const double s = std::sqrt(2.0) * 0.01;
-  EXPECT_NEAR(weighted_residual(point, -s).value,
+  EXPECT_NEAR(weighted_residual(point, weights, -s).value,
               std::sqrt(-2.0 * std::log(gsl_cdf_ugaussian_P(1.0))), 1e-12);
 }
 
 TEST(Captures, CountsWithoutAnyEAreBinomial) {
   // 6 of 20 captured: the deviance of the counts alone, zero at its peak (closed form).
-  Observation point = mixed_point();
+  auto [point, weights] = mixed_point();
   point.restitution = 0.0;
   point.censored = true;
-  locate_peak(point);
+  locate_peak(point, weights);
   const double u = gsl_cdf_ugaussian_Pinv(14.0 / 20.0);
-  EXPECT_NEAR(point.weights.peak.at, u * point.weights.scatter - point.weights.shift, 1e-7);
-  const double r = weighted_residual(point, -point.weights.shift).value;
+  EXPECT_NEAR(weights.peak.at, u * weights.scatter - weights.shift, 1e-7);
+  const double r = weighted_residual(point, weights, -weights.shift).value;
   EXPECT_NEAR(r * r, 2.0 * (6.0 * std::log(0.6) + 14.0 * std::log(1.4)), 1e-6);
   // None of 7 captured mirrors 7 of 7: at m = 0 each impact has the probability 1/2.
   point.events = 7;
   point.captured = 0;
-  point.weights.shift = 0.0;
-  const WeightedResidual none = weighted_residual(point, 0.0);
+  weights.shift = 0.0;
+  const WeightedResidual none = weighted_residual(point, weights, 0.0);
   EXPECT_NEAR(none.value * none.value, 14.0 * std::log(2.0), 1e-12);
   EXPECT_LT(none.value * none.slope, 0.0);  // less where the model rebounds
-  EXPECT_NEAR(weighted_residual(point, 1.0).value, 0.0, 1e-4);
+  EXPECT_NEAR(weighted_residual(point, weights, 1.0).value, 0.0, 1e-4);
 }
 
 TEST(Captures, ResidualIsTheSignedRootOfTheDevianceAndSmooth) {
   for (const bool counted : {true, false}) {
-    Observation point = mixed_point();
+    auto [point, weights] = mixed_point();
     point.counted = counted;
-    locate_peak(point);
-    const double unit = 1.0 / std::sqrt(0.5 * point.weights.peak.curvature);
+    locate_peak(point, weights);
+    const double unit = 1.0 / std::sqrt(0.5 * weights.peak.curvature);
     for (const double away : {-3.0, -0.5, -2e-3, -0.9e-3, 0.0, 0.5e-3, 1.1e-3, 0.2, 4.0}) {
-      const double m = point.weights.peak.at + away * unit;
-      const WeightedResidual at = weighted_residual(point, m);
-      EXPECT_NEAR(at.value * at.value, event_deviance(point, m) - point.weights.peak.deviance,
+      const double m = weights.peak.at + away * unit;
+      const WeightedResidual at = weighted_residual(point, weights, m);
+      EXPECT_NEAR(at.value * at.value, event_deviance(point, weights, m) - weights.peak.deviance,
                   1e-9);
       EXPECT_EQ(at.value > 0.0, away < 0.0);
       const double h = 0.02 * unit;
-      const double difference =
-          (weighted_residual(point, m + h).value - weighted_residual(point, m - h).value) /
-          (2.0 * h);
+      const double difference = (weighted_residual(point, weights, m + h).value -
+                                 weighted_residual(point, weights, m - h).value) /
+                                (2.0 * h);
       EXPECT_NEAR(at.slope / difference, 1.0, 1e-3) << away;
     }
   }
@@ -249,7 +252,7 @@ Bias bias(const ImpactsOfManySpheres& impacts, bool as_survivors_mean) {
     const double found =
         capture_velocity(model, fitted.theta, 0, ImpactsOfManySpheres::diameter).value;
     bias.capture += (found / impacts.capture_velocity() - 1.0) / sets;
-    bias.spread += fitted.data.noise.event_spread / sets;
+    bias.spread += fitted.weights.noise.event_spread / sets;
   }
   bias.C_A_scatter = std::sqrt(squares - bias.C_A * bias.C_A);
   return bias;
@@ -269,7 +272,7 @@ TEST(Captures, RowsAreImpacts) {
     const FitResult by_row = fitted(rows);
     const FitResult by_mean = fitted(means);
     ASSERT_TRUE(by_row.usable && by_mean.usable) << by_row.failure << by_mean.failure;
-    EXPECT_GT(by_row.data.noise.event_spread, 0.05) << s;
+    EXPECT_GT(by_row.weights.noise.event_spread, 0.05) << s;
     for (std::size_t j = 0; j < 2; ++j) {
       EXPECT_NEAR(by_row.theta[j], by_mean.theta[j], 0.4 * by_mean.std_error[j]) << s << " " << j;
     }
@@ -386,7 +389,7 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
   const Dataset data = impacts.draw(1);
   FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
   ASSERT_TRUE(fitted.usable) << fitted.failure;
-  ASSERT_GT(fitted.data.noise.event_spread, 0.0);
+  ASSERT_GT(fitted.weights.noise.event_spread, 0.0);
   EXPECT_FALSE(fitted.spread_covariance.empty());
   // A replicate in which no impact of a point with rebounds was captured.
   Observations replicate = fitted.data;
@@ -394,10 +397,11 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
     if (!point.censored) point.captured = 0;
   }
   EXPECT_TRUE(replicate.weights_depend_on_fit());
-  const ReweightedFit refitted = reweighted_fit(fitted.model, replicate, fitted.theta);
+  const ReweightedFit refitted =
+      reweighted_fit(fitted.model, replicate, fitted.weights.noise, fitted.theta);
   EXPECT_TRUE(refitted.run.converged) << refitted.run.message;
-  EXPECT_EQ(refitted.data.noise.event_spread, 0.0);
-  for (const Observation& point : refitted.data.points) EXPECT_EQ(point.weights.scatter, 0.0);
+  EXPECT_EQ(refitted.weights.noise.event_spread, 0.0);
+  for (const PointWeights& own : refitted.weights.points) EXPECT_EQ(own.scatter, 0.0);
 }
 
 TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
@@ -406,42 +410,43 @@ TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
     const Dataset data = impacts.draw(draw);
     const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
     ASSERT_TRUE(fitted.usable) << fitted.failure;
-    ASSERT_GT(fitted.data.noise.event_spread, 0.0);
+    ASSERT_GT(fitted.weights.noise.event_spread, 0.0);
     for (const double factor : {0.7, 1.4}) {
       std::vector<double> start = fitted.theta;
       for (std::size_t j = 0; j < 2; ++j) start[j] *= factor;
-      Observations again = gather({data});
-      again.noise.event_spread = 0.05 * factor;
-      const ReweightedFit refitted = reweighted_fit(fitted.model, again, start);
+      Noise noise;
+      noise.event_spread = 0.05 * factor;
+      const ReweightedFit refitted = reweighted_fit(fitted.model, gather({data}), noise, start);
       EXPECT_TRUE(refitted.run.converged && refitted.at_rest);
       for (std::size_t j = 0; j < 3; ++j) {
         EXPECT_NEAR((refitted.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
       }
-      EXPECT_NEAR(refitted.data.noise.event_spread / fitted.data.noise.event_spread, 1.0, 0.02);
+      EXPECT_NEAR(refitted.weights.noise.event_spread / fitted.weights.noise.event_spread, 1.0,
+                  0.02);
     }
   }
 }
 
 TEST(Captures, AreDrawnAsTheyAreFitted) {
   // Simulated points have the binomial count and the survivors' mean that the likelihood expects.
-  Observation point = mixed_point();
+  auto [point, weights] = mixed_point();
   const double m = 0.06;
-  const double p = gsl_cdf_ugaussian_Q((m + point.weights.shift) / point.weights.scatter);
-  const double expected = expected_restitution(point, m);
+  const double p = gsl_cdf_ugaussian_Q((m + weights.shift) / weights.scatter);
+  const double expected = expected_restitution(point, weights, m);
   constexpr int draws = 4000;
   double captured = 0.0;
   double mean = 0.0;
   int means = 0;
   for (int i = 0; i < draws; ++i) {
     RandomStream random(3, RandomPurpose::bootstrap, static_cast<std::uint64_t>(i));
-    const Observation drawn = simulate_observation(point, m, 1.0, std::nullopt, random);
+    const auto [drawn, own] = simulate_observation(point, weights, m, 1.0, std::nullopt, random);
     captured += static_cast<double>(drawn.captured) / draws;
     EXPECT_EQ(drawn.censored, drawn.captured == 20);
     if (drawn.censored) continue;
     mean += drawn.restitution;
     ++means;
     // As many as scatter now: sd_1 / sqrt(n - k).
-    EXPECT_NEAR(drawn.weights.sd, 0.03 * std::sqrt(14.0 / drawn.rebounds()), 1e-12);
+    EXPECT_NEAR(own.sd, 0.03 * std::sqrt(14.0 / drawn.rebounds()), 1e-12);
   }
   EXPECT_NEAR(captured, 20.0 * p, 4.0 * std::sqrt(20.0 * p * (1.0 - p) / draws));
   EXPECT_NEAR(mean / means, expected, 4.0 * 0.035 / std::sqrt(draws));

@@ -68,6 +68,7 @@ LeastSquaresProblem bent_valley(int& evaluations) {
 TEST(Nearby, AFewStepsGiveTheMinimumOfTheDescent) {
   int evaluations = 0;
   const LeastSquaresProblem problem = noisy_decay(3.0, 0.4, evaluations);
+  const Weights weights = first_weights(data);
   const LeastSquaresResult whole = minimise(problem, std::array{1.0, 1.0});
   evaluations = 0;
   const LeastSquaresResult steps = minimise(problem, std::array{3.02, 0.41}, nearby());
@@ -239,7 +240,7 @@ Observations many_points(const Dataset& dataset, int times) {
   RandomStream random(7, RandomPurpose::reconstruction, 0);
   for (int k = 0; k < times; ++k) {
     for (Observation point : once) {
-      point.restitution += point.weights.sd * random.normal();
+      point.restitution += point.sd * random.normal();
       data.points.push_back(point);
     }
   }
@@ -267,7 +268,8 @@ TEST(ManyPoints, AreFittedToTheLastDigitOnAnyNumberOfThreads) {
   }
   EXPECT_NEAR(fitted.chi2 / fitted.dof, 1.0, 5.0 * std::sqrt(2.0 / fitted.dof));
 
-  const LeastSquaresResult whole = minimise(impact_problem(model, data), model.initial());
+  const Weights weights = first_weights(data);
+  const LeastSquaresResult whole = minimise(impact_problem(model, data, weights), model.initial());
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(fitted.theta[j], whole.theta[j], 1e-6 * fitted.std_error[j]) << j;
   }

@@ -33,10 +33,11 @@ FitResult fit_design(const Design& design, bool f0_free = false, Solver solver =
 
 TEST(Residual, IsGaussianInRestitutionAwayFromCapture) {
   Observation point;
+  PointWeights weights;
   point.restitution = 0.8;
-  point.weights.sd = 0.01;
+  weights.sd = 0.01;
   for (const double model_e : {0.75, 0.79, 0.8, 0.83}) {
-    EXPECT_NEAR(weighted_residual(point, model_e * model_e).value, (0.8 - model_e) / 0.01,
+    EXPECT_NEAR(weighted_residual(point, weights, model_e * model_e).value, (0.8 - model_e) / 0.01,
                 2e-2 * (1.0 + std::abs(0.8 - model_e) / 0.01));
   }
 }
@@ -45,9 +46,10 @@ TEST(Residual, HasTheVarianceOfTheSquareAtCapture) {
   // At e = m = 0 the variance of e^2 for Gaussian noise is 2 sigma^4 (+ psi): finite, not 4 e^2
   // s^2.
   Observation point;
+  PointWeights weights;
   point.restitution = 0.0;
-  point.weights.sd = 0.02;
-  const WeightedResidual at = weighted_residual(point, 0.0);
+  weights.sd = 0.02;
+  const WeightedResidual at = weighted_residual(point, weights, 0.0);
   EXPECT_TRUE(std::isfinite(at.value));
   EXPECT_LT(at.slope, 0.0);
   EXPECT_GT(at.slope, -1.0 / (0.02 * 0.02));
@@ -55,15 +57,17 @@ TEST(Residual, HasTheVarianceOfTheSquareAtCapture) {
 
 RC_GTEST_PROP(Residual, FallsSmoothlyWithTheModelAndHasItsOwnSlope, ()) {
   Observation point;
+  PointWeights weights;
   point.restitution = *rc::gen::inRange(0, 1100) / 1000.0;
-  point.weights.sd = *rc::gen::inRange(1, 200) / 1000.0;
+  weights.sd = *rc::gen::inRange(1, 200) / 1000.0;
   point.censored = *rc::gen::inRange(0, 4) == 0;
   point.captured = point.censored ? 1 : 0;
   const double m = *rc::gen::inRange(-3000, 1200) / 1000.0;
-  const double h = 1e-6 * std::max(std::abs(m), point.weights.sd * point.weights.sd);
-  const WeightedResidual at = weighted_residual(point, m);
-  const double difference =
-      (weighted_residual(point, m + h).value - weighted_residual(point, m - h).value) / (2.0 * h);
+  const double h = 1e-6 * std::max(std::abs(m), weights.sd * weights.sd);
+  const WeightedResidual at = weighted_residual(point, weights, m);
+  const double difference = (weighted_residual(point, weights, m + h).value -
+                             weighted_residual(point, weights, m - h).value) /
+                            (2.0 * h);
   RC_ASSERT(std::isfinite(at.value));
   RC_ASSERT(std::abs(difference - at.slope) <= 1e-4 * std::abs(at.slope) + 1e-6);
   RC_ASSERT((point.censored ? at.slope >= 0.0 : at.slope <= 0.0));

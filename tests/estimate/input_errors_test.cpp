@@ -38,7 +38,7 @@ Summary with_velocity_errors(bool accounted_for, bool rebound_measured) {
       point.restitution += 0.01 * random.normal();
       point.restitution_sd = 0.01;
     }
-    Noise::Spec spec;
+    NoiseSpec spec;
     spec.velocity_errors = accounted_for;
     const FitResult result = fit_to(data, spec);
     if (!result.usable) {
@@ -91,7 +91,8 @@ TEST(InputErrors, EffectiveVarianceIsTheSlopeTimesTheError) {
     };
     const double in_velocity = 0.5 * (square(1.02, 1.0) - square(0.98, 1.0));
     const double in_diameter = 0.5 * (square(1.0, 1.04) - square(1.0, 0.96));
-    EXPECT_NEAR(point.weights.input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2) << i;
+    EXPECT_NEAR(result.weights.points[i].input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2)
+        << i;
   }
 }
 

@@ -277,7 +277,7 @@ TEST(MechanismFit, SizesInOnePointAreNotCountedTwice) {
   const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
   const FitResult result = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   ASSERT_TRUE(result.usable) << result.failure;
-  EXPECT_EQ(result.data.noise.event_spread, 0.0);
+  EXPECT_EQ(result.weights.noise.event_spread, 0.0);
   EXPECT_NEAR(value_of_slot(result, "size_spread"), 0.35, 0.12);  // two standard errors
   // As C_H and C_A trade for one another, the sum is known best: to 0.0022 s/m by its error, 0.003
   // from one simulated stream to the next. On the average of eight (the recipe with other seeds) it

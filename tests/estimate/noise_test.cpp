@@ -36,7 +36,7 @@ TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
   // Small enough for first-order errors where steep makes it sevenfold.
   const double s = GetParam() == VarianceFunction::steep ? 0.01 : 0.04;
   const Dataset clean = design(16);
-  Noise::Spec spec;
+  NoiseSpec spec;
   spec.variance = GetParam();
   double scale_squared = 0.0;
   double theta[2] = {0.0, 0.0};
@@ -53,10 +53,10 @@ TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
     }
     const FitResult result = fit_to(data, spec);
     ASSERT_TRUE(result.usable) << result.failure;
-    EXPECT_EQ(result.data.noise.variance, GetParam());
+    EXPECT_EQ(result.weights.noise.variance, GetParam());
     EXPECT_NEAR(result.noise_scale, 1.0, 1e-3);
     EXPECT_NEAR(result.chi2, result.dof, 1e-2 * result.dof);
-    scale_squared += std::pow(result.data.noise.scale / s, 2) / sets;
+    scale_squared += std::pow(result.weights.noise.scale / s, 2) / sets;
     const double expected[2] = {3e-3, 0.03};
     for (std::size_t j = 0; j < 2; ++j) {
       const double error = result.theta[j] / expected[j] - 1.0;
@@ -94,14 +94,14 @@ TEST(Noise, SixtyPointsTellTheVarianceFunction) {
       }
       const FitResult result = fit_to(data);
       ASSERT_TRUE(result.usable);
-      ASSERT_EQ(result.data.noise.candidates.size(), 4U);
-      const VarianceFunction chosen = result.data.noise.variance;
+      ASSERT_EQ(result.weights.noise.candidates.size(), 4U);
+      const VarianceFunction chosen = result.weights.noise.variance;
       // Capture and steep differ over a few points only: either stands for a growth to capture.
       const bool grows = chosen == VarianceFunction::capture || chosen == VarianceFunction::steep;
       right += function == VarianceFunction::capture ? grows : chosen == function;
       const bool opposite = function == VarianceFunction::proportional
-                                ? result.data.noise.variance == VarianceFunction::capture
-                                : result.data.noise.variance == VarianceFunction::proportional;
+                                ? result.weights.noise.variance == VarianceFunction::capture
+                                : result.weights.noise.variance == VarianceFunction::proportional;
       EXPECT_FALSE(opposite && choice_margin(result.data.noise) > 4.0);
       EXPECT_GE(choice_margin(result.data.noise), 0.0);
     }
@@ -119,20 +119,20 @@ TEST(Noise, TheChoiceIsReportedWithItsMargin) {
   const FitResult result = fit_to(data);
   ASSERT_TRUE(result.usable);
   EXPECT_EQ(result.noise_verdict, NoiseVerdict::estimated);
-  EXPECT_EQ(result.data.noise.candidates.size(), 4U);
+  EXPECT_EQ(result.weights.noise.candidates.size(), 4U);
   EXPECT_GT(choice_margin(result.data.noise), 0.0);
-  Noise::Spec asked;
+  NoiseSpec asked;
   asked.variance = VarianceFunction::constant;
   const FitResult constant = fit_to(data, asked);
-  EXPECT_EQ(constant.data.noise.variance, VarianceFunction::constant);
-  EXPECT_TRUE(constant.data.noise.candidates.empty());
+  EXPECT_EQ(constant.weights.noise.variance, VarianceFunction::constant);
+  EXPECT_TRUE(constant.weights.noise.candidates.empty());
 }
 
 TEST(Noise, StatedDeviationsAreUsedAndTheMissingOnesCompleted) {
   Dataset data = design(6);
   for (ImpactPoint& point : data.points) point.restitution_sd = 0.01;
   EXPECT_TRUE(gather({data}).noise.sd_stated);
-  Noise::Spec constant;
+  NoiseSpec constant;
   constant.variance = VarianceFunction::constant;
   EXPECT_FALSE(gather({data}, constant).noise.sd_stated);
   data.points[2].restitution_sd.reset();
@@ -140,8 +140,8 @@ TEST(Noise, StatedDeviationsAreUsedAndTheMissingOnesCompleted) {
   EXPECT_TRUE(mixed.noise.sd_stated);
   EXPECT_EQ(mixed.noise.sd_set_aside, 0);
   EXPECT_EQ(mixed.noise.sd_missing, 1);
-  EXPECT_EQ(mixed.points[2].weights.sd, 0.01) << "the median of the others";
-  Noise::Spec stated;
+  EXPECT_EQ(mixed.points[2].sd, 0.01) << "the median of the others";
+  NoiseSpec stated;
   stated.variance = VarianceFunction::stated;
   EXPECT_THROW(gather({data}, stated), InputError);
 }
@@ -159,7 +159,7 @@ TEST(Noise, StudentHoldsAgainstOutliers) {
       point.restitution_sd = 0.01;
       point.restitution += factor * 0.01 * random.normal();
     }
-    Noise::Spec student;
+    NoiseSpec student;
     student.student = true;
     const FitResult a = fit_to(data);
     const FitResult b = fit_to(data, student);
@@ -184,12 +184,12 @@ TEST(Noise, StudentScaleMeansTheNormalCore) {
     Dataset data = clean;
     RandomStream random(26, RandomPurpose::coverage, k);
     for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
-    Noise::Spec spec;
+    NoiseSpec spec;
     spec.student = true;
     spec.variance = VarianceFunction::constant;
     const FitResult estimated = fit_to(data, spec);
     ASSERT_TRUE(estimated.usable);
-    log_scale += std::log(estimated.data.noise.scale / 0.02) / sets;
+    log_scale += std::log(estimated.weights.noise.scale / 0.02) / sets;
     ratio += std::pow((estimated.theta[1] - 0.03) / estimated.std_error[1], 2) / sets;
     for (ImpactPoint& point : data.points) point.restitution_sd = 0.02;
     spec.variance.reset();
@@ -202,15 +202,17 @@ TEST(Noise, StudentScaleMeansTheNormalCore) {
 
 TEST(Noise, SimulatedPointsHaveTheNoiseThatWeightsThem) {
   Observation point;
+  PointWeights weights;
   point.restitution = 0.7;
-  point.weights.sd = 0.02;
-  point.weights.input_sd = 0.03;
+  weights.sd = 0.02;
+  weights.input_sd = 0.03;
   double mean = 0.0;
   double square = 0.0;
   constexpr int draws = 4000;
   for (int i = 0; i < draws; ++i) {
     RandomStream random(27, RandomPurpose::bootstrap, static_cast<std::uint64_t>(i));
-    const double e = simulate_observation(point, 0.64, 1.0, std::nullopt, random).restitution;
+    const double e =
+        simulate_observation(point, weights, 0.64, 1.0, std::nullopt, random).point.restitution;
     mean += (e - 0.8) / draws;
     square += (e - 0.8) * (e - 0.8) / draws;
   }
@@ -220,7 +222,7 @@ TEST(Noise, SimulatedPointsHaveTheNoiseThatWeightsThem) {
   point.censored = true;
   point.captured = 1;
   RandomStream random(27, RandomPurpose::bootstrap, 0);
-  EXPECT_TRUE(simulate_observation(point, -0.1, 1.0, std::nullopt, random).censored);
+  EXPECT_TRUE(simulate_observation(point, weights, -0.1, 1.0, std::nullopt, random).point.censored);
 }
 
 TEST(Noise, ReweightingASecondTimeChangesNothing) {
@@ -232,9 +234,10 @@ TEST(Noise, ReweightingASecondTimeChangesNothing) {
   }
   const FitResult first = fit_to(data);
   ASSERT_TRUE(first.usable);
-  const ReweightedFit again = reweighted_fit(first.model, first.data, first.theta, {});
+  const ReweightedFit again =
+      reweighted_fit(first.model, first.data, first.weights.noise, first.theta);
   ASSERT_TRUE(again.run.converged);
-  EXPECT_EQ(again.data.noise.variance, first.data.noise.variance);
+  EXPECT_EQ(again.weights.noise.variance, first.weights.noise.variance);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(again.run.theta[j], first.theta[j], 5e-3 * first.std_error[j]);
   }
@@ -250,7 +253,7 @@ TEST(Noise, IsUnknownWhereNothingScatters) {
   for (const Dataset& data : {two, equal}) {
     const FitResult result = fit_to(data);
     ASSERT_TRUE(result.usable) << result.failure;
-    EXPECT_FALSE(result.data.noise.known);
+    EXPECT_FALSE(result.weights.noise.known);
     EXPECT_EQ(result.noise_verdict, NoiseVerdict::unchecked);
     EXPECT_TRUE(result.covariance.empty());
     for (const double error : result.std_error) EXPECT_EQ(error, 0.0);
@@ -269,13 +272,13 @@ TEST(Noise, IsNotSmallerThanTheRoundingOfTheReadings) {
   for (ImpactPoint& point : data.points) {
     point.restitution = std::round(100.0 * point.restitution) / 100.0;
   }
-  Noise::Spec spec;
+  NoiseSpec spec;
   spec.variance = VarianceFunction::constant;
   const FitResult result = fit_to(data, spec);
   ASSERT_TRUE(result.usable) << result.failure;
-  EXPECT_TRUE(result.data.noise.known);
-  for (const Observation& point : result.data.points) {
-    EXPECT_NEAR(point.weights.sd * result.noise_scale, 0.01 / std::sqrt(12.0), 1e-9);
+  EXPECT_TRUE(result.weights.noise.known);
+  for (const PointWeights& own : result.weights.points) {
+    EXPECT_NEAR(own.sd * result.noise_scale, 0.01 / std::sqrt(12.0), 1e-9);
   }
 }
 
@@ -284,7 +287,7 @@ TEST(Noise, StatedErrorsNeedNoScatter) {
   for (ImpactPoint& point : two.points) point.restitution_sd = 0.01;
   const FitResult result = fit_to(two);
   ASSERT_TRUE(result.usable) << result.failure;
-  EXPECT_TRUE(result.data.noise.known);
+  EXPECT_TRUE(result.weights.noise.known);
   EXPECT_GT(result.std_error[0], 0.0);
 }
 

@@ -13,7 +13,8 @@
 #include "analysis/analysis.hpp"
 #include "core/error.hpp"
 #include "estimate/fit.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/setting_error.hpp"
+#include "estimate/shared_errors.hpp"
 #include "mechanism/mechanism.hpp"
 #include "support/synthetic.hpp"
 
@@ -65,20 +66,36 @@ Dataset measured(const Drops& drops, unsigned seed) {
   return data;
 }
 
-FitResult fitted(const Dataset& data, const Noise::Spec& noise = {}) {
+FitResult fitted(const Dataset& data, const NoiseSpec& noise = {}) {
   FitOptions options;
   options.several_starts = false;
   const std::vector<Dataset> datasets = {data};
   return fit(make_model(synthetic::spec(), datasets), gather(datasets, noise), options);
 }
 
+/// Points whose residual falls by one per unit of e^2, so that loads are the effects of `sources`.
+WeightedData points_with_errors(std::size_t count, std::vector<const ErrorSource*> sources) {
+  WeightedData made;
+  made.data.points.resize(count);
+  made.data.sources = std::move(sources);
+  made.weights.points.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    made.data.points[i].restitution = 1.0;
+    made.weights.points[i].input_sd = 1.0;  // r = (e^2 - m) / input_sd without any other scatter
+  }
+  made.weights.predicted.assign(count, 1.0);
+  made.weights.effects.assign(made.data.sources.size(), std::vector<double>(count, 0.0));
+  return made;
+}
+
 TEST(SharedSettings, WhiteningIsTheInverseRootOfTheCovariance) {
-  std::vector<Observation> points(7);
+  WeightedData made = points_with_errors(7, {&setting_error()});
+  std::vector<Observation>& points = made.data.points;
   const double loads[] = {0.3, 2.0, 0.0, 1.1, 0.7, 5.0, 0.2};
   const std::size_t settings[] = {4, 4, 4, 9, 9, 4, 2};
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].setting = settings[i];
-    points[i].weights.setting_load = loads[i];
+    made.weights.effects[0][i] = loads[i];
   }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(7, 7);
   for (int i = 0; i < 7; ++i) {
@@ -89,7 +106,7 @@ TEST(SharedSettings, WhiteningIsTheInverseRootOfTheCovariance) {
   // Row-major rows of the identity, whitened column by column, are the whitening matrix.
   std::vector<double> whitening(49, 0.0);
   for (std::size_t i = 0; i < 7; ++i) whitening[8 * i] = 1.0;
-  const SharedSettings shared(points);
+  const SharedErrors shared(made.data, made.weights);
   shared.whiten(whitening, 7);
   const Eigen::Map<const Eigen::Matrix<double, 7, 7, Eigen::RowMajor>> W(whitening.data());
   EXPECT_LT((W * covariance * W.transpose() - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-13);
@@ -97,16 +114,18 @@ TEST(SharedSettings, WhiteningIsTheInverseRootOfTheCovariance) {
 }
 
 TEST(SharedSettings, SizesOfSeriesAndSettingsAddUpInTheCovariance) {
-  std::vector<Observation> points(6);
+  WeightedData made = points_with_errors(6, {&setting_error(), &series_diameter_error()});
+  std::vector<Observation>& points = made.data.points;
   const double of_setting[] = {0.4, 0.9, 0.0, 1.3, 0.6, 0.8};
   const double of_size[] = {0.7, 1.1, 0.5, 0.2, 0.0, 0.9};
   const std::size_t setting[] = {0, 0, 1, 1, 1, 2};
   const std::size_t series[] = {0, 0, 0, 1, 1, 1};
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].setting = setting[i];
-    points[i].series = series[i];
-    points[i].weights.setting_load = of_setting[i];
-    points[i].weights.size_load = of_size[i];
+    points[i].batch = series[i];
+    points[i].series_diameter_sd = of_size[i];  // who states none has none
+    made.weights.effects[0][i] = of_setting[i];
+    made.weights.effects[1][i] = of_size[i];
   }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(6, 6);
   for (int i = 0; i < 6; ++i) {
@@ -117,7 +136,7 @@ TEST(SharedSettings, SizesOfSeriesAndSettingsAddUpInTheCovariance) {
   }
   std::vector<double> whitening(36, 0.0);
   for (std::size_t i = 0; i < 6; ++i) whitening[7 * i] = 1.0;
-  const SharedSettings shared(points);
+  const SharedErrors shared(made.data, made.weights);
   shared.whiten(whitening, 6);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> W(whitening.data());
   EXPECT_LT((W * covariance * W.transpose() - Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-13);
@@ -160,12 +179,12 @@ TEST(SharedSizes, WidenTheErrorByTheSizeOfTheBatch) {
 
 TEST(SharedSettings, ADatasetThatNamesNoneSharesNothing) {
   const FitResult plain = fitted(measured({.named = false}, 1));
-  EXPECT_FALSE(plain.data.noise.shares_settings());
-  EXPECT_TRUE(SharedSettings(plain.data.points).none());
-  Noise::Spec noise;
+  EXPECT_FALSE(plain.data.share(SharedBy::setting));
+  EXPECT_TRUE(SharedErrors(plain.data, plain.weights).none());
+  NoiseSpec noise;
   noise.every_setting = true;  // those of equal velocity
   const FitResult asked = fitted(measured({.named = false}, 1), noise);
-  EXPECT_EQ(asked.data.noise.setting_sd, fitted(measured({}, 1)).data.noise.setting_sd);
+  EXPECT_EQ(asked.weights.noise.setting_sd, fitted(measured({}, 1)).weights.noise.setting_sd);
 }
 
 TEST(SharedSettings, SchemesThatExchangePointsAreRefusedOnceTheFitHasFoundTheSharedError) {
@@ -182,26 +201,23 @@ TEST(SharedSettings, SchemesThatExchangePointsAreRefusedOnceTheFitHasFoundTheSha
 }
 
 TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
-  Noise::Spec noise;
+  NoiseSpec noise;
   noise.student_dof = 7.0;
   Observations all = gather({measured({}, 1)}, noise);
-  all.noise.scale = 0.3;
   all.noise.sd_set_aside = 2;
   all.noise.sd_missing = 3;
   all.constants = {1.5};
-  all.constants_weight = 2.5;
   const std::vector<std::size_t> indices = {5, 1};
   const Observations part = all.subset(indices);
   ASSERT_EQ(part.points.size(), 2U);
   EXPECT_EQ(part.points[0].restitution, all.points[5].restitution);
   EXPECT_EQ(part.points[1].restitution, all.points[1].restitution);
-  EXPECT_EQ(part.noise.scale, 0.3);
   EXPECT_EQ(part.noise.spec.student_dof, 7.0);
   EXPECT_EQ(part.noise.sd_stated, all.noise.sd_stated);
   EXPECT_EQ(part.noise.sd_set_aside, 2);
   EXPECT_EQ(part.noise.sd_missing, 3);
   EXPECT_EQ(part.constants, all.constants);
-  EXPECT_EQ(part.constants_weight, 2.5);
+  EXPECT_EQ(part.sources, all.sources);
   EXPECT_EQ(part.noise.setting_sd_estimated, all.noise.setting_sd_estimated);
 }
 
@@ -232,7 +248,7 @@ TEST(SharedSettings, AllDropsSayWhatTheirMeansSay) {
   const Dataset means = means_of(all, 10, [&](const ImpactPoint&) {
     return std::hypot(drops.shared, own_sd / std::sqrt(10.0));
   });
-  Noise::Spec noise;
+  NoiseSpec noise;
   noise.setting_sd = drops.shared;
   const FitResult by_drops = fitted(all, noise);
   const FitResult by_means = fitted(means);
@@ -253,17 +269,17 @@ TEST_P(SettingErrors, AreEstimatedAndTheErrorsOfTheParametersHold) {
   double error[2] = {0.0, 0.0};
   double claimed[2] = {0.0, 0.0};
   double without[2] = {0.0, 0.0};
-  Noise::Spec none;
+  NoiseSpec none;
   none.setting_sd = 0.0;
   if (!drops.stated) none.variance = VarianceFunction::constant;
-  Noise::Spec shared = none;
+  NoiseSpec shared = none;
   shared.setting_sd.reset();
   const double truth[] = {3e-3, 0.03};
   for (unsigned k = 0; k < sets; ++k) {
     const Dataset data = measured(drops, 100 + k);
     const FitResult own = fitted(data, shared);
     ASSERT_TRUE(own.usable) << own.failure;
-    square += std::pow(own.data.noise.setting_sd, 2) / sets;
+    square += std::pow(own.weights.noise.setting_sd, 2) / sets;
     const FitResult plain = fitted(data, none);
     for (std::size_t j = 0; j < 2; ++j) {
       error[j] += std::pow(own.theta[j] / truth[j] - 1.0, 2) / sets;
@@ -287,25 +303,25 @@ TEST(SharedSettings, WhereThereIsNoErrorNoneIsFound) {
   int alarms = 0;
   for (unsigned k = 0; k < 40; ++k) {
     const FitResult result = fitted(measured({.shared = 0.0}, 500 + k));
-    alarms += result.data.noise.setting_sd > 0.6 * own_sd ? 1 : 0;
+    alarms += result.weights.noise.setting_sd > 0.6 * own_sd ? 1 : 0;
   }
   EXPECT_LE(alarms, 2);
 }
 
 TEST(SharedSettings, FewerSettingsThanParametersSayNothing) {
   const FitResult result = fitted(measured({.settings = 2, .each = 20}, 1));
-  EXPECT_TRUE(result.data.noise.shares_settings());
-  EXPECT_EQ(result.data.noise.setting_sd, 0.0);
+  EXPECT_TRUE(result.data.share(SharedBy::setting));
+  EXPECT_EQ(result.weights.noise.setting_sd, 0.0);
 }
 
 /// Settings less parameters are the degrees of freedom with which sigma is known, and so are those
 /// of the quantiles; from none nothing is estimated.
 TEST(SharedSettings, FewSettingsGiveFewDegreesOfFreedom) {
   const FitResult none = fitted(measured({.settings = 2, .shared = 0.05}, 2));
-  EXPECT_EQ(none.data.noise.setting_sd, 0.0);
+  EXPECT_EQ(none.weights.noise.setting_sd, 0.0);
   EXPECT_EQ(none.quantile_dof, 0);
   const FitResult three = fitted(measured({.settings = 5, .shared = 0.05}, 2));
-  EXPECT_GT(three.data.noise.setting_sd, 0.0);
+  EXPECT_GT(three.weights.noise.setting_sd, 0.0);
   EXPECT_EQ(three.quantile_dof, 3);
 }
 
@@ -341,10 +357,10 @@ TEST(SharedSettings, DoNotAbsorbSeriesThatDiffer) {
   for (const Observation& point : data.points) {
     predicted.push_back(std::pow(e_at(point.velocity), 2));
   }
-  renew_settings(predicted, 2, data);
+  const double sd = setting_sd_at(data, first_weights(data), predicted, 2);
   // From 17 deviations: within a factor of 1.5 nearly always.
-  EXPECT_GT(data.noise.setting_sd, 0.01 / 1.5);
-  EXPECT_LT(data.noise.setting_sd, 0.01 * 1.5);
+  EXPECT_GT(sd, 0.01 / 1.5);
+  EXPECT_LT(sd, 0.01 * 1.5);
 }
 
 /// Where every velocity states its error, settings share no more than that makes of e.
@@ -355,7 +371,7 @@ TEST(SharedSettings, AreBoundedByWhatIsStatedOfTheVelocities) {
     point.velocity_sd = 0.01 * point.incident_velocity;
     most = std::max(most, 0.01 * point.restitution);
   }
-  EXPECT_NEAR(fitted(data).data.noise.setting_sd, most, 1e-12);
+  EXPECT_NEAR(fitted(data).weights.noise.setting_sd, most, 1e-12);
 }
 
 /// Drops from heights whose velocities are off by `relative` of V, the same for all drops of one:
@@ -391,7 +407,7 @@ TEST(SettingVelocities, AreTheErrorsOfTheMeansOfTheirSettings) {
   const FitResult by_drops = fitted(all);
   const FitResult by_means = fitted(means);
   EXPECT_FALSE(by_drops.data.noise.setting_sd_estimated) << "what is stated is not estimated";
-  EXPECT_EQ(by_drops.data.noise.setting_sd, 0.0);
+  EXPECT_EQ(by_drops.weights.noise.setting_sd, 0.0);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(by_drops.theta[j], by_means.theta[j], 0.1 * by_means.std_error[j]) << j;
     EXPECT_NEAR(by_drops.std_error[j] / by_drops.noise_scale,
@@ -418,7 +434,7 @@ TEST(SettingVelocities, TheErrorsOfTheParametersHoldForFewHeights) {
 }
 
 TEST(SettingVelocities, DoNotGoWithStudentsResiduals) {
-  Noise::Spec noise;
+  NoiseSpec noise;
   noise.student = true;
   EXPECT_THROW(gather({measured_from_heights(0.02, 4, 3, 1)}, noise), InputError);
 }
@@ -471,12 +487,13 @@ Dataset timed_launch(double e, double sd_of_instants, std::mt19937& random,
 TEST(TimedBounces, HaveTheCovarianceOfTheirInstants) {
   std::mt19937 random(3);
   Eigen::MatrixXd covariance;
-  const Observations data = gather({timed_launch(0.82, 1e-3, random, &covariance)}, Noise::Spec());
-  ASSERT_TRUE(data.noise.shares_instants);
+  const Observations data = gather({timed_launch(0.82, 1e-3, random, &covariance)}, NoiseSpec());
+  ASSERT_TRUE(data.share(SharedBy::launch));
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =
       sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
-  const SharedSettings settings(data.points);
+  const Weights weights = first_weights(data);
+  const SharedErrors settings(data, weights);
   EXPECT_NEAR(settings.log_determinant(), std::log(correlation.determinant()), 1e-5);
   std::vector<double> r = {0.3, -1.2, 0.7, 0.1, 2.0, -0.4, 0.9, -0.8};
   const Eigen::VectorXd raw = Eigen::Map<Eigen::VectorXd>(r.data(), 8);
@@ -488,7 +505,7 @@ TEST(TimedBounces, HaveTheCovarianceOfTheirInstants) {
   constexpr int draws = 20000;
   for (int i = 0; i < draws; ++i) {
     RandomStream stream(5, RandomPurpose::settings, static_cast<std::uint64_t>(i));
-    const std::vector<double> errors = draw_setting_errors(data, 1.0, stream);
+    const std::vector<double> errors = draw_shared_errors(data, weights, 1.0, stream);
     const Eigen::VectorXd scaled =
         Eigen::Map<const Eigen::VectorXd>(errors.data(), 8).cwiseQuotient(sd);
     drawn += scaled * scaled.transpose() / draws;
@@ -501,10 +518,10 @@ TEST(TimedBounces, AreIndependentWhereOneIsMissingOrNoErrorIsStated) {
   std::mt19937 random(4);
   Dataset data = timed_launch(0.82, 1e-3, random);
   data.points = {data.points[0], data.points[2], data.points[4]};
-  EXPECT_FALSE(gather({data}, Noise::Spec()).noise.shares_instants);
+  EXPECT_FALSE(gather({data}, NoiseSpec()).share(SharedBy::launch));
   data = timed_launch(0.82, 1e-3, random);
   for (ImpactPoint& point : data.points) point.restitution_sd.reset();
-  EXPECT_FALSE(gather({data}, Noise::Spec()).noise.shares_instants);
+  EXPECT_FALSE(gather({data}, NoiseSpec()).share(SharedBy::launch));
 }
 
 TEST(TimedBounces, NarrowTheErrorOfAConstantRestitutionAndItHolds) {
@@ -528,7 +545,7 @@ TEST(TimedBounces, NarrowTheErrorOfAConstantRestitutionAndItHolds) {
     const std::vector<Dataset> data = {timed_launch(0.82, 3e-4, random)};
     FitOptions options;
     options.several_starts = false;
-    const FitResult found = fit(make_model(spec, data), gather(data, Noise::Spec()), options);
+    const FitResult found = fit(make_model(spec, data), gather(data, NoiseSpec()), options);
     ASSERT_TRUE(found.usable) << found.failure;
     const std::size_t slot = found.model.slots.size() - 1;
     squares += std::pow(found.theta[slot] - share, 2) / launches;

@@ -31,7 +31,7 @@ void require_sound(const recoil::FitSpec& spec) {
   const recoil::UncertaintySpec& uncertainty = spec.uncertainty;
   fuzz::require(uncertainty.level > 0.0 && uncertainty.level < 1.0, "level");
   fuzz::require(uncertainty.replicates == 0 || uncertainty.replicates >= 19, "replicates");
-  const recoil::Noise::Spec& noise = spec.noise;
+  const recoil::NoiseSpec& noise = spec.noise;
   fuzz::require(noise.student_dof >= 1.0 && std::isfinite(noise.student_dof), "student_dof");
   for (const double relative : {noise.velocity_relative_sd, noise.diameter_relative_sd}) {
     fuzz::require(relative >= 0.0 && relative <= 0.5, "relative errors");

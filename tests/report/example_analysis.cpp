@@ -102,13 +102,14 @@ void add_dataset(Analysis& a, std::size_t k, const std::array<double, 3>& theta,
       seen.diameter = point.diameter;
       seen.velocity = point.incident_velocity;
       seen.restitution = point.restitution;
-      seen.weights.sd = a.fitted.data.noise.sd_stated ? noise : 1.0;
+      seen.sd = a.fitted.data.noise.sd_stated ? noise : 1.0;
       seen.censored = point.all_captured();
       a.fitted.data.points.push_back(seen);
+      a.fitted.weights.points.emplace_back().sd = seen.sd;
       const double fitted = seen.censored ? 0.0 : truth;
       a.fitted.prediction.push_back(fitted);
       a.fitted.prediction_squared.push_back(fitted * fitted);
-      a.fitted.residuals.push_back((point.restitution - fitted) / seen.weights.sd);
+      a.fitted.residuals.push_back((point.restitution - fitted) / seen.sd);
       a.fitted.leverage.push_back(0.02 + 0.02 * i);
     }
     RestitutionCurve curve;

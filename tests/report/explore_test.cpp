@@ -149,12 +149,13 @@ Analysis with_every_kind_of_point(bool student) {
   std::vector<PointConditions> conditions;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Observation& p = points[i];
+    PointWeights& w = a.fitted.weights.points[i];
     p.events = 12;
-    if (i % 3 == 1) p.weights.input_sd = 0.02;
+    if (i % 3 == 1) w.input_sd = 0.02;
     if (i % 8 < 2) {  // the slow ones
-      p.weights.scatter = 0.15;
-      p.weights.shift = 0.01;
-      p.weights.mean_sd = 0.04;
+      w.scatter = 0.15;
+      w.shift = 0.01;
+      w.mean_sd = 0.04;
       p.captured = 3;
       p.counted = i % 3 != 0;
       if (i % 16 == 0) {
@@ -162,13 +163,13 @@ Analysis with_every_kind_of_point(bool student) {
         p.captured = p.events;
         p.restitution = 0.0;
       } else {
-        locate_peak(p);
+        locate_peak(p, w);
       }
     } else if (i % 16 == 10) {
       p.censored = true;
       p.captured = p.events;
       p.restitution = 0.0;
-      p.weights.sd = 0.6;
+      w.sd = 0.6;
     }
     conditions.push_back(p.conditions());
   }
@@ -176,7 +177,8 @@ Analysis with_every_kind_of_point(bool student) {
       predict(a.fitted.model, a.fitted.theta, conditions, false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     a.fitted.residuals[i] =
-        weighted_residual(points[i], predicted[i].restitution_squared, a.fitted.data.noise.student)
+        weighted_residual(points[i], a.fitted.weights.points[i], predicted[i].restitution_squared,
+                          a.fitted.data.noise.student)
             .value;
   }
   return a;
@@ -212,7 +214,8 @@ TEST_F(Explorer, MisfitFollowsTheValuesAndTheDiameter) {
     const Observation& p = analysis.fitted.data.points[i];
     const Prediction m =
         predict(analysis.fitted.model, theta, 0, 2.0 * p.diameter, p.velocity, false);
-    expected += std::pow(weighted_residual(p, m.restitution_squared).value, 2);
+    expected += std::pow(
+        weighted_residual(p, analysis.fitted.weights.points[i], m.restitution_squared).value, 2);
   }
   const Json found = evaluate(fit_html(analysis),
                               {fmt::format("(p => recoil.misfit(p, 2 * p.diameter, {{...p, C_H: "

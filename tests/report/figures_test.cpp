@@ -77,7 +77,7 @@ TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
   const Observation& first = analysis.fitted.data.points.front();
   EXPECT_DOUBLE_EQ(points[0].x[0], first.velocity);
   EXPECT_DOUBLE_EQ(points[0].y[0], first.restitution);
-  EXPECT_NEAR(points[0].upper[0] - points[0].lower[0], 2.0 * first.weights.sd, 1e-12);
+  EXPECT_NEAR(points[0].upper[0] - points[0].lower[0], 2.0 * first.sd, 1e-12);
 }
 
 TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
@@ -132,8 +132,9 @@ TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
     point.diameter = diameter;
     point.velocity = 2.0;
     point.restitution = 0.5;
-    point.weights.sd = 0.05;
+    point.sd = 0.05;
     d.base.data.points.push_back(point);
+    d.base.weights.points.emplace_back().sd = point.sd;
     d.base.prediction_squared.push_back(0.36);
   }
   d.datasets.resize(1);

@@ -70,9 +70,9 @@ TEST(Headline, StaysShortWithManyRivals) {
 TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   Diagnosis d = answered(Unexplained{});
   EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
-  d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.001});
+  d.unstated.push_back({UnstatedSource::velocity_errors, 0.03, -40.0, 0.001});
   EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
-  d.unstated.push_back({ErrorSource::larger_deviations, 1.4, -20.0, 0.4});
+  d.unstated.push_back({UnstatedSource::larger_deviations, 1.4, -20.0, 0.4});
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }
 
@@ -94,7 +94,7 @@ TEST(AnswerSentences, SpeakOfStatedErrorsOnlyWhereSomeAreStated) {
 TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
   Diagnosis d = answered(names({"gas_film"}));
   CandidateResult& cause = std::get<CauseNamed>(d.answer).extended.cause;
-  d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.4});
+  d.unstated.push_back({UnstatedSource::velocity_errors, 0.03, -40.0, 0.4});
   cause.delta_aicc = -50.0;
   EXPECT_TRUE(rival_errors(d).empty());
   cause.delta_aicc = -42.0;

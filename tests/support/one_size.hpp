@@ -34,7 +34,7 @@ inline Dataset design(int count) {
   return data;
 }
 
-inline FitResult fit_to(const Dataset& data, const Noise::Spec& spec = {}) {
+inline FitResult fit_to(const Dataset& data, const NoiseSpec& spec = {}) {
   FitOptions options;
   options.several_starts = false;
   const std::vector<Dataset> datasets = {data};

@@ -31,8 +31,9 @@ TEST(Bootstrap, RefitsEndAtTheirMinimum) {
   Observations sample = made.fitted.data;
   for (std::size_t b = 0; b < run.theta.size(); ++b) {
     resample(plan, options.seed, b, sample);
+    const Weights weights = first_weights(sample);
     const LeastSquaresResult exact =
-        minimise(impact_problem(made.fitted.model, sample), made.fitted.model.initial());
+        minimise(impact_problem(made.fitted.model, sample, weights), made.fitted.model.initial());
     ASSERT_TRUE(exact.converged);
     for (std::size_t j = 0; j < exact.theta.size(); ++j) {
       // Their impacts are integrated to a hundred times the tolerance, which tells first.

@@ -15,9 +15,9 @@ namespace {
 /// The part of `source` (of a constant: its label) in a budget; 0 where it has none.
 double part(const ErrorBudget& budget, const ImpactModel& model, const std::string& source) {
   for (const BudgetEntry& entry : budget.entries) {
-    const std::string name = entry.source == BudgetSource::constant
-                                 ? model.slots[model.first_constant() + entry.constant].label()
-                                 : to_string(entry.source);
+    const std::string name = entry.constant
+                                 ? model.slots[model.first_constant() + *entry.constant].label()
+                                 : std::string(entry.source);
     if (name == source) return entry.sd;
   }
   return 0.0;
@@ -77,9 +77,8 @@ TEST(Budget, MovesTellWhereTheLawBends) {
     ASSERT_TRUE(fitted.usable);
     const ErrorBudget budget = parameter_budgets(fitted)[1];
     ASSERT_TRUE(budget.available());
-    const auto entry =
-        std::find_if(budget.entries.begin(), budget.entries.end(),
-                     [](const BudgetEntry& e) { return e.source == BudgetSource::constant; });
+    const auto entry = std::find_if(budget.entries.begin(), budget.entries.end(),
+                                    [](const BudgetEntry& e) { return e.constant.has_value(); });
     ASSERT_NE(entry, budget.entries.end());
     if (!entry->lower) continue;    // too small to matter
     EXPECT_GT(*entry->lower, 0.0);  // less adhesion, more damping

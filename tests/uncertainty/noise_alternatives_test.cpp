@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-FitResult noisy_fit(const Noise::Spec& spec = {}) {
+FitResult noisy_fit(const NoiseSpec& spec = {}) {
   Dataset data = one_size::design(12);
   RandomStream random(5, RandomPurpose::coverage, 0);
   for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
@@ -30,8 +30,8 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
     sum += alternative.weight;
     EXPECT_LE(alternative.weight, all.front().weight) << "the chosen one is the most likely";
     const auto total = [&](const FitResult& of) {
-      for (const Noise::Candidate& candidate : fitted.data.noise.candidates) {
-        if (candidate.function == of.data.noise.variance) {
+      for (const Noise::Candidate& candidate : fitted.weights.noise.candidates) {
+        if (candidate.function == of.weights.noise.variance) {
           return candidate.criterion + penalty_of(candidate.function);
         }
       }
@@ -44,7 +44,7 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
 }
 
 TEST(NoiseAlternatives, PrescribedNoiseStandsAlone) {
-  Noise::Spec spec;
+  NoiseSpec spec;
   spec.variance = VarianceFunction::constant;
   const FitResult fitted = noisy_fit(spec);
   ASSERT_TRUE(fitted.usable) << fitted.failure;

@@ -61,7 +61,7 @@ TEST(Posterior, AgreesWithSumsOnAGrid) {
     if (!stated) {
       for (ImpactPoint& point : used.points) point.restitution_sd.reset();
     }
-    Noise::Spec noise;
+    NoiseSpec noise;
     if (!stated) noise.variance = VarianceFunction::constant;
     const FitResult fitted = fit(make_model(synthetic::spec(), {used}), gather({used}, noise));
     ASSERT_TRUE(fitted.usable);

@@ -200,7 +200,7 @@ TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
   Case c = noisy_case();
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   for (const double spread : {0.15, 0.3}) {
-    c.data.noise.event_spread = c.fitted.data.noise.event_spread = spread;
+    c.fitted.weights.noise.event_spread = spread;
     const Identifiability verdict =
         judge_identifiability(c.fitted, result.intervals, result.capture);
     EXPECT_EQ(verdict.parameter[0].identifiable, spread < 0.2);
@@ -325,7 +325,8 @@ TEST(Profile, IsCalibratedNearABoundWithAllOtherParametersMoving) {
   const std::size_t p = c.fitted.theta.size();
   std::vector<double> residuals(n);
   std::vector<double> jacobian(n * p);
-  ASSERT_TRUE(impact_problem(c.fitted.model, c.data).evaluate(c.fitted.theta, residuals, jacobian));
+  ASSERT_TRUE(impact_problem(c.fitted.model, c.data, c.fitted.weights)
+                  .evaluate(c.fitted.theta, residuals, jacobian));
   double HH = 0.0, HA = 0.0, AA = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     HH += jacobian[i * p] * jacobian[i * p];

@@ -103,7 +103,7 @@ Fitted with_added(const FitInputs& inputs, const FitResult& base, const Fitted& 
     return with;
   }
   with.refit = refit_candidate(
-      with.candidate, base.data,
+      with.candidate, base.data, base.weights,
       carried_over(from.candidate.model, from.refit.theta, with.candidate.model), starts);
   return with;
 }
@@ -115,7 +115,7 @@ std::vector<double> effect_of(const FitResult& base, const Fitted& with) {
       predict(with.candidate.model, with.refit.theta, base.data.conditions(), false);
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const double e = std::sqrt(std::max(squares[i].restitution_squared, 0.0));
-    effect.push_back((e - base.prediction[i]) / base.data.points[i].weights.sd);
+    effect.push_back((e - base.prediction[i]) / base.weights.points[i].sd);
   }
   return effect;
 }
@@ -143,7 +143,7 @@ BaselineAnswers baseline_answers(const Case& made) {
   const std::vector<double> discrepancy =
       discrepancy_mean(log_velocity, log_diameter, base.residuals);
   Fitted current{make_candidate(inputs.spec, inputs.datasets, {}), {}};
-  current.refit = refit_candidate(current.candidate, base.data, base.theta, 0);
+  current.refit = refit_candidate(current.candidate, base.data, base.weights, base.theta, 0);
   double least = aicc(base, current);
   for (std::size_t round = 0; round < 2 && answers.stepwise.size() == round; ++round) {
     const Fitted before = current;

@@ -1,0 +1,27 @@
+#include <array>
+
+#include "estimate/error_source.hpp"
+
+namespace recoil {
+
+std::vector<ErrorPart> ErrorSource::parts(const Observation& point) const {
+  switch (shared) {
+    case SharedBy::setting:
+      return {{point.setting}};
+    case SharedBy::series:
+      return {{point.batch}};
+    case SharedBy::launch:
+    case SharedBy::nobody:
+      break;
+  }
+  return {};
+}
+
+std::span<const ErrorSource* const> error_sources() {
+  static const std::array all = {&velocity_error(),        &diameter_error(),
+                                 &setting_error(),         &setting_velocity_error(),
+                                 &series_diameter_error(), &instant_error()};
+  return all;
+}
+
+}  // namespace recoil
