@@ -68,7 +68,6 @@ LeastSquaresProblem bent_valley(int& evaluations) {
 TEST(Nearby, AFewStepsGiveTheMinimumOfTheDescent) {
   int evaluations = 0;
   const LeastSquaresProblem problem = noisy_decay(3.0, 0.4, evaluations);
-  const Weights weights = first_weights(data);
   const LeastSquaresResult whole = minimise(problem, std::array{1.0, 1.0});
   evaluations = 0;
   const LeastSquaresResult steps = minimise(problem, std::array{3.02, 0.41}, nearby());

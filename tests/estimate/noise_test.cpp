@@ -102,8 +102,8 @@ TEST(Noise, SixtyPointsTellTheVarianceFunction) {
       const bool opposite = function == VarianceFunction::proportional
                                 ? result.weights.noise.variance == VarianceFunction::capture
                                 : result.weights.noise.variance == VarianceFunction::proportional;
-      EXPECT_FALSE(opposite && choice_margin(result.data.noise) > 4.0);
-      EXPECT_GE(choice_margin(result.data.noise), 0.0);
+      EXPECT_FALSE(opposite && choice_margin(result.weights.noise) > 4.0);
+      EXPECT_GE(choice_margin(result.weights.noise), 0.0);
     }
     const int least = function == VarianceFunction::steep     ? 8
                       : function == VarianceFunction::capture ? 5
@@ -120,7 +120,7 @@ TEST(Noise, TheChoiceIsReportedWithItsMargin) {
   ASSERT_TRUE(result.usable);
   EXPECT_EQ(result.noise_verdict, NoiseVerdict::estimated);
   EXPECT_EQ(result.weights.noise.candidates.size(), 4U);
-  EXPECT_GT(choice_margin(result.data.noise), 0.0);
+  EXPECT_GT(choice_margin(result.weights.noise), 0.0);
   NoiseSpec asked;
   asked.variance = VarianceFunction::constant;
   const FitResult constant = fit_to(data, asked);

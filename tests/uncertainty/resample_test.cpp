@@ -1,6 +1,7 @@
 // Each scheme against what it promises, on a fit with two series and a captured point.
 #include "uncertainty/resample.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace recoil {
 namespace {
 
 using synthetic::Case;
+using testing::HasSubstr;
 
 /// The noisy case with a captured point among its fourteen, fitted.
 Case with_capture() {
