@@ -15,6 +15,7 @@
 #include "core/units.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/input_errors.hpp"
 #include "estimate/setting_error.hpp"
 #include "estimate/shared_errors.hpp"
 

@@ -74,12 +74,4 @@ class ErrorSource {
 /// All sources, in the order in which they are drawn.
 std::span<const ErrorSource* const> error_sources();
 
-// The sources, one file for each kind.
-const ErrorSource& velocity_error();
-const ErrorSource& setting_velocity_error();
-const ErrorSource& diameter_error();
-const ErrorSource& series_diameter_error();
-const ErrorSource& setting_error();
-const ErrorSource& instant_error();
-
 }  // namespace recoil

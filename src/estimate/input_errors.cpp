@@ -1,7 +1,8 @@
+#include "estimate/input_errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/error_source.hpp"
 #include "estimate/observations.hpp"
 
 namespace recoil {

@@ -1,17 +1,13 @@
+#include "estimate/instant_errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/error_source.hpp"
 #include "estimate/observations.hpp"
 
 namespace recoil {
 namespace {
 
-/// The errors of the instants t at which successive bounces of a launch were timed. In
-///   e_k = (t_(k+2) - t_(k+1)) / (t_(k+1) - t_k)
-/// the errors of t_k, t_(k+1) and t_(k+2), independent and of equal size, have coefficients in the
-/// ratio 1 : -(1 + 1/e_k) : 1/e_k. They are the whole scatter of e_k, whose standard deviation is
-/// stated. Their effect on V is neglected: V de/dV is small compared with e for a ball.
 class InstantError : public ErrorSource {
  public:
   InstantError() : ErrorSource({"scatter", "launch", "scatter of the points"}, SharedBy::launch) {}

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "estimate/input_errors.hpp"
 
 namespace recoil {
 namespace {

@@ -3,10 +3,15 @@
 #include <span>
 #include <vector>
 
+#include "estimate/error_source.hpp"
 #include "estimate/observations.hpp"
 #include "estimate/weights.hpp"
 
 namespace recoil {
+
+/// `setting_sd`: sigma, an error of e that the points of one setting share [1], stated or
+/// estimated.
+const ErrorSource& setting_error();
 
 /// Estimates sigma, the error of e that the points of one setting of the apparatus share, from the
 /// scatter between settings, compared with the scatter within them. With m_k the weighted mean

@@ -351,6 +351,7 @@ Weights first_weights(const Observations& data) {
 Weights first_weights(const Observations& data, Noise noise) {
   Weights weights;
   weights.noise = std::move(noise);
+  if (!data.weights_depend_on_fit()) weights.noise.event_spread = 0.0;  // no sphere was captured
   for (const Observation& point : data.points) {
     PointWeights& own = weights.points.emplace_back();
     own.sd = data.noise.sd_stated

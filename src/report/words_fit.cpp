@@ -9,6 +9,7 @@
 #include <map>
 
 #include "estimate/reweighting.hpp"
+#include "estimate/input_errors.hpp"
 #include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"

@@ -396,7 +396,6 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
   for (Observation& point : replicate.points) {
     if (!point.censored) point.captured = 0;
   }
-  EXPECT_TRUE(replicate.weights_depend_on_fit());
   const ReweightedFit refitted =
       reweighted_fit(fitted.model, replicate, fitted.weights.noise, fitted.theta);
   EXPECT_TRUE(refitted.run.converged) << refitted.run.message;

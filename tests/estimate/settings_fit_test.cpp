@@ -13,6 +13,7 @@
 #include "analysis/analysis.hpp"
 #include "core/error.hpp"
 #include "estimate/fit.hpp"
+#include "estimate/input_errors.hpp"
 #include "estimate/setting_error.hpp"
 #include "estimate/shared_errors.hpp"
 #include "mechanism/mechanism.hpp"

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "estimate/setting_error.hpp"
 #include "support/noisy_case.hpp"
 
 namespace recoil {

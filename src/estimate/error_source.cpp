@@ -1,6 +1,10 @@
+#include "estimate/error_source.hpp"
+
 #include <array>
 
-#include "estimate/error_source.hpp"
+#include "estimate/input_errors.hpp"
+#include "estimate/instant_errors.hpp"
+#include "estimate/setting_error.hpp"
 
 namespace recoil {
 
