@@ -250,6 +250,31 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
 
 }  // namespace
 
+int degrees_of_freedom(const FitResult& fitted, std::span<const double> gradient) {
+  if (fitted.quantile_dof == 0 || fitted.covariance.empty()) return fitted.quantile_dof;
+  const std::size_t p = gradient.size();
+  double variance = 0.0;
+  for (std::size_t a = 0; a < p; ++a) {
+    for (std::size_t b = 0; b < p; ++b) {
+      variance += gradient[a] * fitted.covariance[a * p + b] * gradient[b];
+    }
+  }
+  double rest = variance;
+  for (const std::vector<double>& effect : fitted.constant_effects) {
+    rest -= std::pow(std::inner_product(effect.begin(), effect.end(), gradient.begin(), 0.0), 2);
+  }
+  if (!(variance > 0.0)) return fitted.quantile_dof;
+  constexpr double normal = 1e6;  // above it, the quantiles are normal to six digits
+  const double ratio = variance / std::max(rest, 1e-9 * variance);
+  return static_cast<int>(std::min(normal, fitted.quantile_dof * ratio * ratio * (1.0 + 1e-9)));
+}
+
+int degrees_of_freedom(const FitResult& fitted, std::size_t slot) {
+  std::vector<double> gradient(fitted.theta.size(), 0.0);
+  gradient[slot] = 1.0;
+  return degrees_of_freedom(fitted, gradient);
+}
+
 std::vector<std::size_t> held_back_dampings(const FitResult& fitted) {
   std::vector<std::size_t> found;
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {

@@ -78,9 +78,8 @@ struct FitResult {
   double rmse = 0.0;         ///< root mean square of e - e_model over all points with a known e [1]
   double noise_scale = 1.0;  ///< factor on the standard deviations of `data` in every interval; 1
                              ///< if they explain the scatter or this fit estimated them
-  /// Degrees of freedom of Student's t, whose quantiles turn standard errors into intervals: those
-  /// of the estimated error with the fewest. 0: no error is estimated, and the quantiles are
-  /// normal.
+  /// Degrees of freedom of the estimated error that has the fewest; 0: no error is estimated. For
+  /// the quantiles of an interval see `degrees_of_freedom`.
   int quantile_dof = 0;
   NoiseVerdict noise_verdict = NoiseVerdict::unchecked;
   int strained_points = 0;      ///< points with an input_bias above `strained_bias`
@@ -100,6 +99,14 @@ struct FitResult {
 /// velocities. The fit to all points continues from each of their minima that these points cannot
 /// distinguish from the best.
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});
+
+/// Degrees of freedom of Student's t, whose quantiles turn the standard error of a quantity with
+/// this gradient [slots] into an interval. With v its variance, of which the part v_c comes from
+/// stated errors of constants, and `quantile_dof` for the rest, v^2 / ((v - v_c)^2 / quantile_dof)
+/// (Satterthwaite 1946, Biometrics Bull. 2, 110), rounded down. 0: the quantiles are normal.
+int degrees_of_freedom(const FitResult& fitted, std::span<const double> gradient);
+/// The same for a slot.
+int degrees_of_freedom(const FitResult& fitted, std::size_t slot);
 
 /// The slots of C_H and C_A that rest on their upper bound.
 std::vector<std::size_t> held_back_dampings(const FitResult& fitted);

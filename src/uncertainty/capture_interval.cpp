@@ -23,7 +23,8 @@ std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alterna
             : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
     if (!v.found || !(v.value > 0.0)) continue;
     terms.push_back({alternative.weight, std::log(v.value / capture.value),
-                     logarithmic_error(v, other.covariance), other.quantile_dof});
+                     logarithmic_error(v, other.covariance),
+                     degrees_of_freedom(other, v.gradient)});
   }
   return terms;
 }

@@ -55,7 +55,7 @@ std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alterna
   for (const NoiseAlternative& alternative : alternatives) {
     const FitResult& fitted = alternative.fitted;
     terms.push_back(
-        {alternative.weight, fitted.theta[j], fitted.std_error[j], fitted.quantile_dof});
+        {alternative.weight, fitted.theta[j], fitted.std_error[j], degrees_of_freedom(fitted, j)});
   }
   return terms;
 }

@@ -168,7 +168,7 @@ class ConstantErrors {
 };
 
 Allowance allowance(const FitResult& fitted, std::size_t slot, double level, double error) {
-  return {fitted.model.slots[slot], level, fitted.quantile_dof,
+  return {fitted.model.slots[slot], level, degrees_of_freedom(fitted, slot),
           fitted.noise_scale * fitted.noise_scale, error};
 }
 
@@ -272,7 +272,8 @@ double profile_level(const FitResult& fitted, std::size_t slot, double value) {
     const double ratio = constants.ratio(value);
     height = 1.0 / (1.0 / height + ratio * ratio);
   }
-  return level_of_rise(height, fitted.quantile_dof, error > 0.0 ? room / error : INFINITY);
+  return level_of_rise(height, degrees_of_freedom(fitted, slot),
+                       error > 0.0 ? room / error : INFINITY);
 }
 
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
