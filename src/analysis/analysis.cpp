@@ -135,7 +135,10 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   result.bootstrap = bootstrap(fitted, result.capture, options);
   add_resampled_intervals(fitted, result.bootstrap, level, threads, result.intervals);
   add_resampled_captures(fitted, result.bootstrap, level, result.capture);
-  result.two_point = compare_two_points(fitted);
+  const auto& points = fitted.data.points;
+  if (std::any_of(points.begin(), points.end(), [](const Observation& p) { return !p.censored; })) {
+    result.two_point = compare_two_points(fitted);
+  }
   add_comparison_rows(fitted, result.two_point);
   bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
   result.identifiability =
@@ -149,10 +152,6 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   result.conditional = conditional_fit(fitted, level, threads);
   result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
                                      {result.bootstrap.theta, level, threads});
-  const auto& points = fitted.data.points;
-  if (std::all_of(points.begin(), points.end(), [](const Observation& p) { return p.censored; })) {
-    result.two_point.clear();  // it needs two measured e
-  }
   if (std::all_of(points.begin(), points.end(),
                   [](const Observation& p) { return p.censored && !p.mixed(); })) {
     // The parameters still have their initial values, and so has everything that follows from them.

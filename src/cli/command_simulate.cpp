@@ -43,7 +43,7 @@ std::string history_csv(const SimulatedImpact& simulated) {
   return csv;
 }
 
-/// Prints e as measured, and the contribution of every mechanism.
+/// Prints e as a fit predicts it, and the contribution of every mechanism.
 void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diameter,
                       double velocity) {
   const std::vector<double> theta = model.initial();
@@ -59,6 +59,10 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   const double all = square(theta);
   print_text("restitution: {:.8f}\n", std::sqrt(std::max(all, 0.0)));
   print_text("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
+  if (averages_over_sizes(model, dataset)) {
+    print_line("this is the mean over the sizes that the dataset states");
+  }
+  if (model.chain.empty()) return;
   print_text("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,
              square(without_mechanisms(model, theta)));
   Table table;
@@ -141,7 +145,8 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
   if (simulated.extended) {
-    print_text("\nthe impact of the base model at the contact, in at {:.6g} m/s{}:\n", c.velocity,
+    print_text("\nthe impact of the base model at the contact of one sphere, in at {:.6g} m/s{}:\n",
+               c.velocity,
                captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity));
   } else {
     print_text("restitution: {:.8f}\n", captured ? 0.0 : e);
@@ -235,7 +240,9 @@ void simulate(const SimulateOptions& options) {
              start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);
-    print_text("{}", terminal_text(whole_energy_table(model, simulated.whole), indent));
+    if (!model.chain.empty()) {
+      print_text("{}", terminal_text(whole_energy_table(model, simulated.whole), indent));
+    }
   }
   print_impact(simulated, datasets[d], model.contacts[d], model.phase);
   print_text("{}", terminal_text(validity_table(simulated.validity), indent));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -116,6 +117,7 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
     result.weights.noise.constants_weight = result.noise_scale;
     ReweightedFit again = reweighted_fit(result.model, result.data, result.weights.noise,
                                          result.theta, {.minimiser = options});
+    result.handovers += again.handovers;
     run = std::move(again.run);
     if (!run.ended()) return false;
     result.weights = std::move(again.weights);
@@ -195,6 +197,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     noise.constants_weight = 1.0;
     ReweightedFit reweighted = reweighted_fit(
         model, result.data, noise, search.leads.front().run.theta, {.minimiser = minimiser});
+    result.handovers += reweighted.handovers;
     if (!reweighted.run.ended()) {
       result.failure = "reweighting did not converge: " + reweighted.run.message;
       return result;
@@ -204,8 +207,9 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     result.weights = std::move(reweighted.weights);
   } else {
     result.weights = first_weights(result.data);
+    const auto predictor = std::make_shared<PointPredictor>(model, result.data.conditions());
     const LeastSquaresProblem problem =
-        impact_problem(model, result.data, result.weights, &result.handovers);
+        impact_problem(model, result.data, result.weights, predictor);
     for (StartLead& lead : search.leads) {
       LeastSquaresResult run = minimise(problem, lead.run.theta, minimiser);
       if (!run.ended() && !search.sampled) run = std::move(lead.run);
@@ -213,6 +217,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
       best = std::move(run);
       best_start = lead.start;
     }
+    result.handovers += predictor->handovers();
     if (!best.ended()) {
       result.failure =
           "no fit to all points converged from the results of the starts on some of them";

@@ -85,7 +85,8 @@ struct FitResult {
   int strained_points = 0;      ///< points with an input_bias above `strained_bias`
   bool weights_at_rest = true;  ///< false: the weights still changed in the last round
   std::optional<UnusedCounts> unused_counts;
-  long handovers = 0;  ///< impacts that the fast solver handed to the reference
+  /// Impacts of all descents that the fast solver handed to the reference.
+  long handovers = 0;
   std::vector<StartSummary> starts;
   std::size_t searched_points = 0;  ///< points on which the starts were compared, see `fit`
 

@@ -47,8 +47,7 @@ std::vector<double> constant_deviations(const ImpactModel& model, const Observat
 }
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
-                                   const Weights& weights, long* handovers,
-                                   std::shared_ptr<PointPredictor> points) {
+                                   const Weights& weights, std::shared_ptr<PointPredictor> points) {
   LeastSquaresProblem problem;
   problem.residual_count = data.points.size() + model.constants.size();
   for (const ParameterSlot& slot : model.slots) {
@@ -67,9 +66,9 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   const auto predictor =
       points ? std::move(points) : std::make_shared<PointPredictor>(model, data.conditions());
   const auto shared = std::make_shared<const SharedErrors>(data, weights);
-  problem.evaluate = [predictor, shared, &model, &data, &weights, handovers](
-                         std::span<const double> theta, std::span<double> residuals,
-                         std::span<double> jacobian) {
+  problem.evaluate = [predictor, shared, &model, &data, &weights](std::span<const double> theta,
+                                                                  std::span<double> residuals,
+                                                                  std::span<double> jacobian) {
     if (called_off()) return false;  // the minimiser ends; its caller then checks for the interrupt
     const std::size_t p = theta.size();
     std::atomic<bool> answered = true;
@@ -87,8 +86,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
         predictor->gradient_row(i, answers[k], r.slope, jacobian.subspan(i * p, p));
       }
     };
-    const long handed_over = predictor->evaluate_blocks(theta, !jacobian.empty(), take);
-    if (handovers != nullptr) *handovers += handed_over;
+    predictor->evaluate_blocks(theta, !jacobian.empty(), take);
     if (!answered) return false;
     shared->whiten(residuals);
     if (!jacobian.empty()) shared->whiten(jacobian, p);

@@ -21,11 +21,10 @@ namespace recoil {
 ///
 /// The problem refers to `model`, `data` and `weights`, which must outlive it. It and its copies
 /// share one work space, so that only one of them may be evaluated at a time.
-/// @param handovers when not null, counts the impacts that the fast solver handed over
 /// @param points when not null, the predictor to use for the points of `data`; several problems of
 ///   one model may share it
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
-                                   const Weights& weights, long* handovers = nullptr,
+                                   const Weights& weights,
                                    std::shared_ptr<PointPredictor> points = nullptr);
 
 /// Deviations of the uncertain constants under `theta` from their stated values, in standard

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "estimate/likelihood.hpp"
 #include "estimate/observations.hpp"
-#include "estimate/residual.hpp"
-#include "estimate/shared_errors.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -30,17 +30,6 @@ constexpr double same_criterion = 0.01;
 
 }  // namespace
 
-double minus_two_log_likelihood(const FitResult& fitted) {
-  double sum = fitted.objective + SharedErrors(fitted.data, fitted.weights).log_determinant();
-  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
-    const double square = fitted.prediction_squared[i];
-    const double slope = slope_in_restitution(
-        weighted_residual(fitted.data.points[i], fitted.weights.points[i], square), square);
-    if (!fitted.data.points[i].censored && slope > 0.0) sum -= 2.0 * std::log(slope);
-  }
-  return sum;
-}
-
 LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   const std::string first(hunt_crossley);
   if (!spec.loss.empty() && spec.loss != "auto") return {spec, {}};
@@ -61,10 +50,12 @@ LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets
     const FitResult fitted = fit(model, data);
     if (!fitted.usable || !fitted.flat.empty()) continue;
     if (!fitted.weights.noise.known) return as_stated;  // the fit passes through all points
+    const std::optional<double> likelihood = minus_two_log_likelihood(fitted);
+    if (!likelihood) return as_stated;
     const double k = model.free_count() + (data.noise.sd_stated ? 0 : 1);
     // The correction for few points; it is equal for laws with equally many parameters.
     const double correction = n > k + 1.0 ? 2.0 * k * (k + 1.0) / (n - k - 1.0) : 0.0;
-    choice.laws.push_back({loss, minus_two_log_likelihood(fitted) + 2.0 * k + correction});
+    choice.laws.push_back({loss, *likelihood + 2.0 * k + correction});
   }
   if (choice.laws.empty()) return as_stated;
   double best = choice.laws.front().delta_aicc;

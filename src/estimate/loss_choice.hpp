@@ -15,11 +15,6 @@ struct LossFit {
   double delta_aicc = 0.0;  ///< AICc above that of the best law
 };
 
-/// -2 ln likelihood of the points at the fit, up to a constant that all fits to them share: the sum
-/// of squared residuals r, the log-determinant of shared errors, and -2 sum ln |dr / de| for the
-/// scale of e, which depends on the weights.
-double minus_two_log_likelihood(const FitResult& fitted);
-
 /// A fit specification with a definite loss.
 struct LossChoice {
   FitSpec spec;
@@ -29,7 +24,8 @@ struct LossChoice {
 /// If `spec` leaves the loss to the points, fits every law and selects the smallest AICc (Burnham &
 /// Anderson 2002, Model Selection and Multimodel Inference, section 2.4); among equal ones the
 /// first of `dry_losses`. A law that cannot act, or that affects no point, is not a candidate. C_H
-/// is kept if the noise is unknown or if no law can be fitted.
+/// is kept if the noise is unknown, if the residuals have no likelihood, or if no law can be
+/// fitted.
 LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets);
 
 }  // namespace recoil

@@ -494,14 +494,15 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
   const ContactProperties& contact = model.contacts[dataset];
   const MaterialState now = materials_under(model, theta, dataset);
   const auto [equal, density] = contact.as_one_sphere(diameter, now.density);
-  return {equal,
-          velocity,
-          density,
-          now.stiffness,
-          contact.adhesion_force_at(adhesion_force_under(model, theta, dataset), diameter),
-          theta[model.slot_C_H[dataset]],
-          theta[model.slot_C_A[dataset]],
-          model.separation};
+  return {.diameter = equal,
+          .velocity = velocity,
+          .density = density,
+          .stiffness = now.stiffness,
+          .adhesion_force =
+              contact.adhesion_force_at(adhesion_force_under(model, theta, dataset), diameter),
+          .hertz_damping = theta[model.slot_C_H[dataset]],
+          .adhesion_damping = theta[model.slot_C_A[dataset]],
+          .separation = model.separation};
 }
 
 }  // namespace recoil

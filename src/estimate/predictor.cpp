@@ -85,8 +85,12 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       const ContactProperties& stated = model.contacts[p.dataset];
       const auto [equal, density] = stated.as_one_sphere(p.diameter, stated.particle_density);
       const ImpactGroups groups =
-          impact_groups({equal, p.velocity, density, stated.stiffness,
-                         stated.adhesion_force_at(1.0, p.diameter), 0.0, 0.0, model.separation});
+          impact_groups({.diameter = equal,
+                         .velocity = p.velocity,
+                         .density = density,
+                         .stiffness = stated.stiffness,
+                         .adhesion_force = stated.adhesion_force_at(1.0, p.diameter),
+                         .separation = model.separation});
       beta_per_f0_[i] = groups.beta;
       range_per_f0_[i] = groups.range;
     }
@@ -142,10 +146,10 @@ void PointPredictor::take_parameters(std::span<const double> theta, bool gradien
 
 ImpactGroups PointPredictor::groups_at(std::size_t i) const {
   const PointConditions& p = points_[i];
-  return {C_H_[p.dataset] * p.velocity,
-          force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
-          C_A_[p.dataset] * p.velocity, 0.0,
-          force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
+  return {.alpha = C_H_[p.dataset] * p.velocity,
+          .beta = force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
+          .gamma = C_A_[p.dataset] * p.velocity,
+          .range = force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
 }
 
 /// Simulates answers.size() points from `first` on. @return the impacts handed to the reference
@@ -179,28 +183,30 @@ long PointPredictor::simulate_range(std::size_t first, const ImpactOptions& opti
   return handed_over;
 }
 
-long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   take_parameters(theta, gradient);
   last_theta_.assign(theta.begin(), theta.end());
   last_gradient_ = gradient;
   results_.resize(points_.size());
   const ImpactOptions options = model_.impact_options(gradient);
-  if (extended_) return evaluate_extended(theta, options);
+  if (extended_) {
+    evaluate_extended(theta, options);
+    return;
+  }
   std::atomic<long> handed_over = 0;
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     handed_over += simulate_range(first, options, std::span(results_).subspan(first, count));
   });
-  return handed_over;
+  handovers_ += handed_over;
 }
 
 bool PointPredictor::keeps_answers() const {
   return extended_ || points_.size() <= points_of_block;
 }
 
-long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradient,
+void PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradient,
                                      const TakeBlock& take) {
   if (keeps_answers()) {
-    long handed_over = 0;
     const auto is_at = [&](const std::vector<double>& known) {
       return std::equal(theta.begin(), theta.end(), known.begin(), known.end());
     };
@@ -211,7 +217,7 @@ long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
         last_theta_ = first_theta_;
         last_gradient_ = true;
       } else {
-        handed_over = evaluate(theta, gradient);
+        evaluate(theta, gradient);
       }
     }
     if (gradient && first_theta_.empty() && !extended_) {
@@ -219,7 +225,7 @@ long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
       first_results_ = results_;
     }
     take(0, results_);
-    return handed_over;
+    return;
   }
   take_parameters(theta, gradient);
   const ImpactOptions options = model_.impact_options(gradient);
@@ -230,7 +236,7 @@ long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
     handed_over += simulate_range(first, options, answers);
     take(first, answers);
   });
-  return handed_over;
+  handovers_ += handed_over;
 }
 
 void PointPredictor::take_materials(std::span<const double> theta, bool gradient) {
@@ -246,7 +252,7 @@ void PointPredictor::take_materials(std::span<const double> theta, bool gradient
   }
 }
 
-long PointPredictor::evaluate_extended(std::span<const double> theta,
+void PointPredictor::evaluate_extended(std::span<const double> theta,
                                        const ImpactOptions& options) {
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     values_[k] = slots_[k] == no_slot ? nulls_[k] : theta[slots_[k]];
@@ -255,12 +261,11 @@ long PointPredictor::evaluate_extended(std::span<const double> theta,
   for (std::size_t i = 0; i < points_.size(); ++i) {
     values_[i * per_point + place_of_force] = force_[points_[i].dataset];
   }
-  const long handed_over = extended_->evaluate(values_, options, model_.simulator());
+  handovers_ += extended_->evaluate(values_, options, model_.simulator());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     results_[i].outcome = extended_->at(i).outcome;
     results_[i].restitution_squared = extended_->at(i).restitution_squared;
   }
-  return handed_over;
 }
 
 void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, double scale,
@@ -347,6 +352,24 @@ std::vector<Prediction> predict(const ImpactModel& model, std::span<const double
 Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
                    double diameter, double velocity, bool gradient) {
   return predict(model, theta, {{dataset, diameter, velocity}}, gradient).front();
+}
+
+std::vector<double> restitution_curve(const ImpactModel& model, std::span<const double> theta,
+                                      PointConditions sphere, std::span<const double> velocities,
+                                      Effects effects) {
+  std::vector<PointConditions> points;
+  for (const double velocity : velocities) {
+    sphere.velocity = velocity;
+    points.push_back(sphere);
+  }
+  PointPredictor predictor(model, std::move(points), effects);
+  predictor.evaluate(theta, false);
+  std::vector<double> e;
+  for (std::size_t i = 0; i < predictor.size(); ++i) {
+    const ImpactResult& impact = predictor.at(i);
+    e.push_back(impact.usable() ? std::sqrt(std::max(impact.restitution_squared, 0.0)) : NAN);
+  }
+  return e;
 }
 
 namespace {

@@ -44,21 +44,22 @@ class PointPredictor {
                  Effects effects = Effects::as_measured);
 
   /// Simulates every point under `theta`, with gradients if `gradient`.
-  /// @return number of impacts that the fast solver handed to the reference
   /// @throws CalledOff
-  long evaluate(std::span<const double> theta, bool gradient);
+  void evaluate(std::span<const double> theta, bool gradient);
 
   /// Receives the results of points `first`, `first` + 1, ...; other threads may call it at the
   /// same time with other blocks.
   using TakeBlock = std::function<void(std::size_t first, std::span<const ImpactResult> answers)>;
   /// The same, but passes the results of many points to `take` block by block instead of keeping
   /// them; `at` and the slopes are then not available.
-  long evaluate_blocks(std::span<const double> theta, bool gradient, const TakeBlock& take);
+  void evaluate_blocks(std::span<const double> theta, bool gradient, const TakeBlock& take);
   /// Does `evaluate_blocks` keep its results, so that a second evaluation at the same theta is
   /// free?
   bool keeps_answers() const;
 
   std::size_t size() const { return points_.size(); }
+  /// The number of impacts so far that the fast solver handed to the reference.
+  long handovers() const { return handovers_; }
   /// The outcome and e^2 at point i, mechanisms included.
   const ImpactResult& at(std::size_t i) const { return results_[i]; }
   /// Writes scale * d e^2(point i) / d theta into `row` [slots].
@@ -78,7 +79,7 @@ class PointPredictor {
   ImpactGroups groups_at(std::size_t i) const;
   long simulate_range(std::size_t first, const ImpactOptions& options,
                       std::span<ImpactResult> answers) const;
-  long evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
+  void evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
@@ -100,6 +101,7 @@ class PointPredictor {
   std::vector<ImpactResult> results_;
   std::vector<double> last_theta_;  // theta of results_
   bool last_gradient_ = false;
+  long handovers_ = 0;
   std::vector<double> first_theta_;  // with gradients; its results are in first_results_
   std::vector<ImpactResult> first_results_;
 };
@@ -111,6 +113,12 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
 /// Simulates every point under `theta` at once.
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
                                 std::vector<PointConditions> points, bool gradient);
+
+/// e at every velocity [1] for spheres with the dataset, diameter and series of `sphere`: a curve.
+/// NaN where the impact cannot be solved. @param velocities [m/s]
+std::vector<double> restitution_curve(const ImpactModel& model, std::span<const double> theta,
+                                      PointConditions sphere, std::span<const double> velocities,
+                                      Effects effects = Effects::as_measured);
 
 /// The energy budget of that sphere. @param impact result of the base model at its contact
 WholeImpactEnergy whole_impact_energy(const ImpactModel& model, std::span<const double> theta,

@@ -113,6 +113,7 @@ double restricted_criterion(const ImpactModel& model, const Observations& data,
 /// @param limit ends the rounds if the restricted criterion, at the best scale, exceeds it
 ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, const Noise& noise,
                             std::span<const double> start, const ReweightingOptions& options,
+                            const std::shared_ptr<PointPredictor>& points,
                             double limit = INFINITY) {
   ReweightedFit result;
   result.weights = first_weights(data, noise);
@@ -120,7 +121,6 @@ ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, 
   Extrapolation extrapolation;
   LeastSquaresOptions minimiser = options.minimiser;
   minimiser.finish = false;  // only after the last round
-  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
   for (int round = 0; round < most_rounds; ++round) {
     std::optional<Weights> renewed =
         weights_at(model, data, std::move(result.weights), theta, *points);
@@ -133,8 +133,7 @@ ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, 
     }
     result.weights = std::move(*renewed);
     double& noise_scale = result.weights.noise.scale;
-    result.run =
-        minimise(impact_problem(model, data, result.weights, nullptr, points), theta, minimiser);
+    result.run = minimise(impact_problem(model, data, result.weights, points), theta, minimiser);
     if (!result.run.ended()) return result;
     minimiser.strategies = {Strategy::gauss_newton,
                             Strategy::box_descent};  // the next start is near the answer
@@ -168,11 +167,14 @@ ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, 
 
 /// Refines a fit to the last digit with its weights fixed.
 ReweightedFit finished(const ImpactModel& model, const Observations& data, ReweightedFit fit,
-                       const LeastSquaresOptions& minimiser) {
-  if (!minimiser.finish || !fit.run.ended()) return fit;
-  LeastSquaresResult run =
-      minimise(impact_problem(model, data, fit.weights), fit.run.theta, minimiser);
-  if (run.ended()) fit.run = std::move(run);
+                       const LeastSquaresOptions& minimiser,
+                       const std::shared_ptr<PointPredictor>& points) {
+  if (minimiser.finish && fit.run.ended()) {
+    LeastSquaresResult run =
+        minimise(impact_problem(model, data, fit.weights, points), fit.run.theta, minimiser);
+    if (run.ended()) fit.run = std::move(run);
+  }
+  fit.handovers = points->handovers();
   return fit;
 }
 
@@ -207,14 +209,17 @@ double choice_margin(const Noise& noise) {
 
 ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data, const Noise& noise,
                              std::span<const double> start, const ReweightingOptions& options) {
+  const auto points = std::make_shared<PointPredictor>(model, data.conditions());
   if (!data.weights_depend_on_fit()) {
     ReweightedFit result{{}, first_weights(data, noise), true};
-    result.run = minimise(impact_problem(model, data, result.weights), start, options.minimiser);
+    result.run =
+        minimise(impact_problem(model, data, result.weights, points), start, options.minimiser);
+    result.handovers = points->handovers();
     return result;
   }
   if (data.noise.sd_stated || data.noise.spec.variance) {
-    return finished(model, data, reweight_with(model, data, noise, start, options),
-                    options.minimiser);
+    return finished(model, data, reweight_with(model, data, noise, start, options, points),
+                    options.minimiser, points);
   }
   std::vector<VarianceFunction> functions = {VarianceFunction::constant,
                                              VarianceFunction::proportional,
@@ -254,7 +259,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data,
     }
     const double limit =
         options.replicate ? best_criterion + far_behind - penalty_of(function) : INFINITY;
-    ReweightedFit result = reweight_with(model, data, own, from, options, limit);
+    ReweightedFit result = reweight_with(model, data, own, from, options, points, limit);
     if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
@@ -273,7 +278,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data,
     }
   }
   best->weights.noise.candidates = std::move(candidates);
-  return finished(model, data, std::move(*best), options.minimiser);
+  return finished(model, data, std::move(*best), options.minimiser, points);
 }
 
 }  // namespace recoil

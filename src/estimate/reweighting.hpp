@@ -16,6 +16,7 @@ struct ReweightedFit {
   LeastSquaresResult run;  ///< the last descent; not ended() when a round failed
   Weights weights;         ///< those of `run`
   bool at_rest = true;     ///< false: still changing in the last round
+  long handovers = 0;      ///< impacts that the fast solver handed to the reference
 };
 
 /// Residuals of e below this are taken as rounding [1].

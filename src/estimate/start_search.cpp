@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -12,8 +13,9 @@
 namespace recoil {
 namespace {
 
-// Two minima within this relative difference of chi2 are a tie, if their parameters differ.
-constexpr double tie_tolerance = 1e-6;
+// Two sums of squares are the same within this relative difference, or within `least_chi2`.
+constexpr double same_chi2 = 1e-3;
+constexpr double least_chi2 = 1e-6;
 
 // With more points than `many_points`, the descents from the starts use 250 to 374 of them: a rough
 // answer is enough to compare starts, and only the last steps need all points.
@@ -113,14 +115,17 @@ std::optional<Observations> searched_part(const Observations& data, std::ptrdiff
   return data.subset(used);
 }
 
-/// Do the parameters of `run` differ from those of `best` by more than a tenth of their standard
-/// errors?
+/// Do two values of a parameter differ by more than a tenth of its standard error, or by more than
+/// a thousandth of its `size` if it has none?
+bool differ(double one, double other, double std_error, double size) {
+  return std::abs(one - other) > (std_error > 0.0 ? 0.1 * std_error : 1e-3 * size);
+}
+
 bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& best) {
   const std::size_t p = run.theta.size();
   for (std::size_t j = 0; j < p; ++j) {
     const double error = best.covariance.empty() ? 0.0 : std::sqrt(best.covariance[j * p + j]);
-    const double unit = error > 0.0 ? 0.1 * error : 1e-3 * std::abs(best.theta[j]);
-    if (std::abs(run.theta[j] - best.theta[j]) > unit) return true;
+    if (differ(run.theta[j], best.theta[j], error, std::abs(best.theta[j]))) return true;
   }
   return false;
 }
@@ -159,7 +164,8 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
   search.points = seen.points.size();
   search.sampled = data.points.size() > many_points;
   const Weights weights = first_weights(seen);
-  const LeastSquaresProblem problem = impact_problem(model, seen, weights, &search.handovers);
+  const auto predictor = std::make_shared<PointPredictor>(model, seen.conditions());
+  const LeastSquaresProblem problem = impact_problem(model, seen, weights, predictor);
   options.finish = false;  // only the best run is refined
   std::vector<StartLead> ended;
   for (const std::vector<double>& start : starting_points(model, first, several)) {
@@ -168,6 +174,7 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
     if (run.ended()) ended.push_back({search.starts.size() - 1, std::move(run)});
   }
   finish_promising(problem, options, search.starts, ended);
+  search.handovers = predictor->handovers();
   if (ended.empty()) return search;
   const auto best =
       std::min_element(ended.begin(), ended.end(), [](const StartLead& a, const StartLead& b) {
@@ -199,20 +206,18 @@ void compare_starts(std::vector<StartSummary>& starts, std::size_t best_start,
   for (std::size_t k = 0; k < starts.size(); ++k) {
     StartSummary& start = starts[k];
     if (start.ending == DescentEnd::limit || start.ending == DescentEnd::no_answer) continue;
-    if (k != best_start && start.ending == DescentEnd::flat) {
+    if (k == best_start) {
+      start.outcome = StartOutcome::best;
+    } else if (start.ending == DescentEnd::flat) {
       start.outcome = StartOutcome::flat;
-      continue;
-    }
-    start.outcome = k == best_start ? StartOutcome::best : StartOutcome::same;
-    if (start.chi2 > best.chi2 * (1.0 + 1e-3) + 1e-6) {
+    } else if (start.chi2 > best.chi2 * (1.0 + same_chi2) + least_chi2) {
       start.outcome = StartOutcome::worse;
-    } else if (start.chi2 <= best.chi2 * (1.0 + tie_tolerance)) {
+    } else {
       for (std::size_t j = 0; j < start.end.size(); ++j) {
-        if (std_error[j] > 0.0 && std::abs(start.end[j] - best.end[j]) > 0.1 * std_error[j]) {
-          start.outcome = StartOutcome::tie;
-          start.differing.push_back(j);
-        }
+        const double size = std::max(std::abs(best.end[j]), std::abs(start.start[j]));
+        if (differ(start.end[j], best.end[j], std_error[j], size)) start.differing.push_back(j);
       }
+      start.outcome = start.differing.empty() ? StartOutcome::same : StartOutcome::tie;
     }
   }
 }

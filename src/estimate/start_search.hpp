@@ -13,8 +13,8 @@ namespace recoil {
 /// How one of several starts ended.
 enum class StartOutcome {
   best,           ///< reached the smallest chi2
-  same,           ///< reached the same parameters as the best
-  tie,            ///< reached the same chi2 at other parameters, see StartSummary::differing
+  same,           ///< reached the chi2 and the parameters of the best
+  tie,            ///< reached its chi2 at other parameters, see StartSummary::differing
   worse,          ///< ended in a worse local minimum
   flat,           ///< ended where the points do not depend on a parameter
   not_converged,  ///< failed
@@ -57,9 +57,10 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
                                const std::vector<double>& first, bool several,
                                LeastSquaresOptions options);
 
-/// Sets `outcome` and `differing` of every start.
+/// Sets `outcome` and `differing` of every start. Values of chi2 are the same within 0.1 %, values
+/// of a parameter within a tenth of its standard error, or within 0.1 % if it has none.
 /// @param best index of the start that the fit continued
-/// @param std_error standard errors of the fit [slots]
+/// @param std_error standard errors of the fit, or 0 [slots]
 void compare_starts(std::vector<StartSummary>& starts, std::size_t best,
                     const std::vector<double>& std_error);
 

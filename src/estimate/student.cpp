@@ -100,15 +100,4 @@ double StudentNoise::p_value(std::span<const double> residuals, int freedom) con
   return std::min(1.0, 2.0 * std::min(of_sum, of_largest));
 }
 
-double gain_under_outliers(const StudentNoise& student, double share, double factor) {
-  const auto mixed = [&](const auto& f) {
-    return (1.0 - share) * normal_mean(f) +
-           share * normal_mean([&](double z) { return f(factor * z); });
-  };
-  const double least_squares = 1.0 - share + share * factor * factor;
-  const double slope = mixed([&](double z) { return psi_slope(student.dof, z); });
-  const double square = mixed([&](double z) { return student.psi(z) * student.psi(z); });
-  return least_squares * slope * slope / square;
-}
-
 }  // namespace recoil

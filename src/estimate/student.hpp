@@ -49,8 +49,4 @@ struct StudentNoise {
 /// The constants for `dof` degrees of freedom, by quadrature.
 StudentNoise student_noise(double dof);
 
-/// Variance of least squares over that of this estimate if a share `share` of the residuals has a
-/// standard deviation `factor` times larger than the rest; above 1 if this estimate is better.
-double gain_under_outliers(const StudentNoise& student, double share, double factor);
-
 }  // namespace recoil

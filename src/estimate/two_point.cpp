@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "estimate/predictor.hpp"
+
 namespace recoil {
 namespace {
 
@@ -15,170 +17,133 @@ constexpr double at_rest = 1e-8;  // relative change of both factors
 // Relative, of each factor; the error after the last Newton step is far smaller.
 constexpr double root_tolerance = 1e-9;
 
-struct Excess {
-  double value;  // e^2 of the model minus e^2 of the point
-  double slope;  // d value / d damping, negative
-};
+/// C_H, which the fast point determines, and C_A, which the slow point determines [s/m].
+using Dampings = std::array<double, 2>;
 
-/// The damping in [0, upper] at which `excess`, which falls with damping, vanishes, by Newton's
-/// method from `guess` within a bracket. Nullopt if the excess is negative without damping, if it
-/// is positive at the largest damping, or if an impact cannot be solved.
-template <class ExcessAt>
-std::optional<double> find_damping(const ExcessAt& excess_at, double guess, double upper) {
-  constexpr int most_steps = 200;
-  double damping = guess;
-  double low = 0.0;
-  double high = upper;
-  bool root_above_zero = false;  // excess(0) >= 0
-  for (int step = 0; step < most_steps; ++step) {
-    const Excess at = excess_at(damping);
-    if (!std::isfinite(at.value)) return std::nullopt;
-    if (damping == 0.0) {
-      if (at.value < 0.0) return std::nullopt;
-      root_above_zero = true;
-    }
-    if (at.value > 0.0 && damping >= upper) return std::nullopt;
-    (at.value > 0.0 ? low : high) = damping;
-    double next = damping - at.value / at.slope;
-    if (next <= 0.0 && !root_above_zero) {
-      next = 0.0;
-    } else if (!(next > low) || !(next < high)) {
-      // From below a root, Newton's method may overshoot into the flat or captured range.
-      next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
-      if (high == upper && next > 0.5 * upper) next = upper;
-    }
-    if (next > 0.0 && std::abs(next - damping) <= root_tolerance * next) return next;
-    damping = next;
-  }
-  return damping;
-}
-
-/// The adhesion that the fit file fixes; that of eq. 12 if the full fit frees it.
-double adhesion_of_two_points(const ImpactModel& model, std::size_t dataset) {
-  const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
-  return slot.free ? derived_adhesion(model, dataset) : slot.initial;
-}
-
-/// Simulates the impacts of one diameter for given dampings.
-class CalibratedSphere {
+/// The fast and the slow point, and what the model predicts for them.
+class TwoPoints {
  public:
-  CalibratedSphere(const ImpactModel& model, std::size_t dataset, double diameter)
-      : model_(model), dataset_(dataset), diameter_(diameter), theta_(model.initial()) {
-    theta_[model.slot_adhesion[dataset]] = adhesion_of_two_points(model, dataset);
-  }
+  /// @param theta every parameter but the dampings [slots]
+  TwoPoints(const ImpactModel& model, std::vector<double> theta, const Observation& fast,
+            const Observation& slow)
+      : predictors_{PointPredictor(model, {fast.conditions()}),
+                    PointPredictor(model, {slow.conditions()})},
+        slots_{model.slot_C_H[fast.dataset], model.slot_C_A[fast.dataset]},
+        upper_{model.slots[slots_[0]].upper, model.slots[slots_[1]].upper},
+        measured_{fast.restitution, slow.restitution},
+        theta_(std::move(theta)),
+        row_(theta_.size()) {}
 
-  /// beta at the velocity of `point`.
-  double beta_at(const Observation& point) const {
-    return impact_groups(conditions_at(model_, theta_, dataset_, diameter_, point.velocity)).beta;
-  }
+  const std::vector<double>& theta() const { return theta_; }
+  Dampings dampings() const { return {theta_[slots_[0]], theta_[slots_[1]]}; }
 
-  /// The damping factors at which the model gives the measured e of both points, by Newton's method
-  /// in both from `theta`. Nullopt if a step leaves the bounds, if Newton's method does not
-  /// converge, or if the paper's iteration would not converge there.
-  std::optional<std::array<double, 2>> both_factors(const std::array<const Observation*, 2>& points,
-                                                    const std::array<double, 2>& beta,
-                                                    std::span<const double> theta) const {
-    constexpr int most_steps = 12;
-    const std::array<std::size_t, 2> slots = {model_.slot_C_H[dataset_], model_.slot_C_A[dataset_]};
-    std::array<double, 2> factors = {theta[slots[0]], theta[slots[1]]};
+  void set_damping(std::size_t k, double value) { theta_[slots_[k]] = value; }
+
+  /// The damping `k` in [0, upper] at which the model gives the e of point `k`, by Newton's method
+  /// within a bracket from the present damping. Nullopt if e is too low without damping or too high
+  /// with the largest, or if an impact cannot be solved.
+  std::optional<double> solve_one(std::size_t k) {
+    constexpr int most_steps = 200;
+    double damping = theta_[slots_[k]];
+    double low = 0.0;
+    double high = upper_[k];
+    bool root_above_zero = false;  // the excess without damping is not negative
     for (int step = 0; step < most_steps; ++step) {
-      std::array<ImpactGroups, 2> groups;
-      std::array<ImpactResult, 2> results;
-      for (std::size_t i = 0; i < 2; ++i) {
-        const double V = points[i]->velocity;
-        groups[i] = {factors[0] * V, beta[i], factors[1] * V};
+      set_damping(k, damping);
+      const double value = excess(k);
+      if (!std::isfinite(value)) return std::nullopt;
+      if (damping == 0.0) {
+        if (value < 0.0) return std::nullopt;
+        root_above_zero = true;
       }
-      model_.simulator()(groups, model_.impact_options(true), results);
+      if (value > 0.0 && damping >= upper_[k]) return std::nullopt;
+      (value > 0.0 ? low : high) = damping;
+      double next = damping - value / slope(k, k);
+      if (next <= 0.0 && !root_above_zero) {
+        next = 0.0;
+      } else if (!(next > low) || !(next < high)) {
+        // From below a root, Newton's method may overshoot into the flat or captured range.
+        next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
+        if (high == upper_[k] && next > 0.5 * upper_[k]) next = upper_[k];
+      }
+      if (next > 0.0 && std::abs(next - damping) <= root_tolerance * next) return next;
+      damping = next;
+    }
+    return damping;
+  }
+
+  /// Finds both dampings at once by Newton's method from `near`. False if a step leaves the bounds,
+  /// if Newton's method does not converge, or if the paper's iteration would not converge there.
+  bool solve_both(const Dampings& near) {
+    constexpr int most_steps = 12;
+    for (std::size_t k = 0; k < 2; ++k) set_damping(k, near[k]);
+    for (int step = 0; step < most_steps; ++step) {
+      const Eigen::Vector2d excesses(excess(0), excess(1));
+      if (!excesses.allFinite()) return false;
       Eigen::Matrix2d slopes;
-      Eigen::Vector2d excess;
-      for (int i = 0; i < 2; ++i) {
-        const ImpactResult& result = results[static_cast<std::size_t>(i)];
-        const Observation& point = *points[static_cast<std::size_t>(i)];
-        if (!result.usable()) return std::nullopt;
-        excess(i) = result.restitution_squared - point.restitution * point.restitution;
-        slopes.row(i) << point.velocity * result.gradient[0], point.velocity * result.gradient[2];
-      }
-      const Eigen::Vector2d by = -slopes.inverse() * excess;
+      slopes << slope(0, 0), slope(0, 1), slope(1, 0), slope(1, 1);
+      const Eigen::Vector2d by = -slopes.inverse() * excesses;
       bool rests = true;
       for (std::size_t k = 0; k < 2; ++k) {
         const double change = by(static_cast<Eigen::Index>(k));
-        factors[k] += change;
-        if (!(factors[k] > 0.0 && factors[k] < model_.slots[slots[k]].upper)) return std::nullopt;
-        rests = rests && std::abs(change) <= root_tolerance * factors[k];
+        const double next = theta_[slots_[k]] + change;
+        if (!(next > 0.0 && next < upper_[k])) return false;
+        rests = rests && std::abs(change) <= root_tolerance * next;
+        set_damping(k, next);
       }
       // The paper's iteration converges here if a change of one factor changes the other by less.
-      const bool draws =
-          std::abs(slopes(0, 1) * slopes(1, 0)) < std::abs(slopes(0, 0) * slopes(1, 1));
-      if (rests) return draws ? std::optional(factors) : std::nullopt;
+      if (rests) {
+        return std::abs(slopes(0, 1) * slopes(1, 0)) < std::abs(slopes(0, 0) * slopes(1, 1));
+      }
     }
-    return std::nullopt;
-  }
-
-  /// e^2 of the model minus that of `point`, and its slope in C_H (`group` 0) or C_A (2).
-  Excess excess(const Observation& point, double beta, double C_H, double C_A, int group) const {
-    const double V = point.velocity;
-    const ImpactGroups groups{C_H * V, beta, C_A * V};
-    ImpactResult result;
-    model_.simulator()(std::span(&groups, 1), model_.impact_options(true), std::span(&result, 1));
-    if (!result.usable()) return {std::nan(""), 0.0};
-    return {result.restitution_squared - point.restitution * point.restitution,
-            V * result.gradient[static_cast<std::size_t>(group)]};
+    return false;
   }
 
  private:
-  const ImpactModel& model_;
-  std::size_t dataset_;
-  double diameter_;
+  /// e^2 of the model minus that of point `i`; NaN if the impact cannot be solved.
+  double excess(std::size_t i) {
+    predictors_[i].evaluate(theta_, true);
+    const ImpactResult& impact = predictors_[i].at(0);
+    return impact.usable() ? impact.restitution_squared - measured_[i] * measured_[i] : NAN;
+  }
+  /// d e^2 of point `i` / d damping `k` where `excess` was evaluated last [m/s].
+  double slope(std::size_t i, std::size_t k) {
+    predictors_[i].gradient_row(0, 1.0, row_);
+    return row_[slots_[k]];
+  }
+
+  std::array<PointPredictor, 2> predictors_;
+  std::array<std::size_t, 2> slots_;
+  Dampings upper_;
+  std::array<double, 2> measured_;
   std::vector<double> theta_;
+  std::vector<double> row_;
 };
 
-/// Runs the iteration on the two points of `result`; sets its status, theta and iterations.
-void iterate(const ImpactModel& model, const Observations& data, std::size_t dataset,
-             std::span<const double> near, TwoPointResult& result) {
-  const Observation& low = data.points[result.low_point];
-  const Observation& high = data.points[result.high_point];
-  const CalibratedSphere sphere(model, dataset, result.diameter);
-  const double beta_low = sphere.beta_at(low);
-  const double beta_high = sphere.beta_at(high);
-  const double upper_C_H = model.slots[model.slot_C_H[dataset]].upper;
-  const double upper_C_A = model.slots[model.slot_C_A[dataset]].upper;
-  double C_H = 0.0;
-  double C_A = 0.0;
-  const auto replace = [](double& damping, double found) {
-    const double change = std::abs(found - damping);
-    damping = found;
-    return change > at_rest * found;
-  };
-  std::optional<std::array<double, 2>> found;
-  if (!near.empty()) found = sphere.both_factors({&high, &low}, {beta_high, beta_low}, near);
-  if (found) {
-    result.status = TwoPointStatus::converged;
-    C_H = found->front();
-    C_A = found->back();
-  } else {
-    result.status = TwoPointStatus::not_converging;
-  }
-  for (result.iterations = 1; !found; ++result.iterations) {
-    const std::optional<double> hertz = find_damping(
-        [&](double damping) { return sphere.excess(high, beta_high, damping, C_A, 0); }, C_H,
-        upper_C_H);
-    const bool hertz_moves = replace(C_H, hertz.value_or(0.0));
-    const std::optional<double> adhesion =
-        find_damping([&](double damping) { return sphere.excess(low, beta_low, C_H, damping, 2); },
-                     C_A, upper_C_A);
-    const bool adhesion_moves = replace(C_A, adhesion.value_or(0.0));
-    if (!hertz_moves && !adhesion_moves) {
-      result.status = !hertz      ? TwoPointStatus::no_hertz_damping
-                      : !adhesion ? TwoPointStatus::no_adhesion_damping
-                                  : TwoPointStatus::converged;
-      break;
+/// Runs the paper's iteration from C_H = C_A = 0; sets status and iterations.
+void iterate(TwoPoints& points, TwoPointResult& result) {
+  result.status = TwoPointStatus::not_converging;
+  points.set_damping(0, 0.0);
+  points.set_damping(1, 0.0);
+  for (result.iterations = 1;; ++result.iterations) {
+    std::array<bool, 2> found{};
+    bool moved = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double before = points.dampings()[k];
+      const std::optional<double> damping = points.solve_one(k);
+      const double now = damping.value_or(0.0);
+      points.set_damping(k, now);
+      found[k] = damping.has_value();
+      moved = moved || std::abs(now - before) > at_rest * now;
     }
-    if (result.iterations == most_iterations) break;
+    if (!moved) {
+      result.status = !found[0]   ? TwoPointStatus::no_hertz_damping
+                      : !found[1] ? TwoPointStatus::no_adhesion_damping
+                                  : TwoPointStatus::converged;
+      return;
+    }
+    if (result.iterations == most_iterations) return;
   }
-  result.theta = model.initial();
-  result.theta[model.slot_adhesion[dataset]] = adhesion_of_two_points(model, dataset);
-  result.theta[model.slot_C_H[dataset]] = C_H;
-  result.theta[model.slot_C_A[dataset]] = C_A;
 }
 
 bool choose_points(const Observations& data, std::size_t dataset, double diameter,
@@ -210,8 +175,20 @@ bool choose_points(const Observations& data, std::size_t dataset, double diamete
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
                          double diameter, std::span<const double> near) {
   TwoPointResult result;
-  result.theta = without_mechanisms(model, model.initial());
-  if (choose_points(data, dataset, diameter, result)) iterate(model, data, dataset, near, result);
+  if (!choose_points(data, dataset, diameter, result)) return result;
+  std::vector<double> theta = without_mechanisms(model, model.initial());
+  const std::size_t adhesion = model.slot_adhesion[dataset];
+  if (model.slots[adhesion].free) theta[adhesion] = derived_adhesion(model, dataset);
+  TwoPoints points(model, std::move(theta), data.points[result.high_point],
+                   data.points[result.low_point]);
+  if (!near.empty() &&
+      points.solve_both({near[model.slot_C_H[dataset]], near[model.slot_C_A[dataset]]})) {
+    result.status = TwoPointStatus::converged;
+    result.iterations = 1;
+  } else {
+    iterate(points, result);
+  }
+  result.theta = points.theta();
   return result;
 }
 

@@ -26,13 +26,16 @@ struct NamesOf<TwoPointStatus> {
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
 /// C_H (with C_A = 0 at first), the point of the lowest gives C_A, and both steps repeat until the
-/// factors do not change. f0 is fixed by eq. 12 or by the fit file.
+/// factors do not change. f0 is fixed by eq. 12 or by the fit file. Mechanisms do not act, and the
+/// materials have their stated constants. The curve, averaged over sizes that the dataset states,
+/// goes through both points.
 struct TwoPointResult {
   TwoPointStatus status = TwoPointStatus::too_few_points;
   std::size_t low_point = 0;  ///< indices into the observations
   std::size_t high_point = 0;
-  double diameter = 0.0;      ///< diameter of the points used [m]
-  std::vector<double> theta;  ///< [slots]; the last iterate if it did not converge
+  double diameter = 0.0;  ///< diameter of the points used [m]
+  /// [slots]; the last iterate if it did not converge, empty for too few points.
+  std::vector<double> theta;
   int iterations = 0;
 };
 

@@ -400,7 +400,7 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
   std::vector<std::vector<double>> slopes;  // half of dT / d theta there
   for (const double by : {-step, 0.0, step}) {
     const Weights there = renewal.with_spread(answers->at, answers->beside, std::exp(by));
-    const LeastSquaresProblem problem = impact_problem(model, data, there, nullptr, points);
+    const LeastSquaresProblem problem = impact_problem(model, data, there, points);
     std::vector<double> residuals(problem.residual_count);
     std::vector<double> jacobian(problem.residual_count * p);
     if (!problem.evaluate(theta, residuals, jacobian)) return {};

@@ -18,10 +18,13 @@ namespace recoil {
 namespace {
 
 ImpactGroups groups_under(const ContactForce& force, double velocity, ImpactScales& scales) {
-  const ImpactConditions conditions = {2.0 * force.radius,    velocity,
-                                       force.density,         force.stiffness,
-                                       force.adhesion_force,  force.hertz_damping,
-                                       force.adhesion_damping};
+  const ImpactConditions conditions = {.diameter = 2.0 * force.radius,
+                                       .velocity = velocity,
+                                       .density = force.density,
+                                       .stiffness = force.stiffness,
+                                       .adhesion_force = force.adhesion_force,
+                                       .hertz_damping = force.hertz_damping,
+                                       .adhesion_damping = force.adhesion_damping};
   scales = impact_scales(conditions);
   ImpactGroups groups = impact_groups(conditions);
   groups.kappa =

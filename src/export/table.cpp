@@ -11,7 +11,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
-#include "predict/polydisperse.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
@@ -46,7 +46,8 @@ void add_bands(const ImpactModel& model, const TableRequest& request, TabulatedS
   std::vector<double> captures(count, std::nan(""));
   parallel_over(count, request.threads, [&](std::size_t i) {
     const std::vector<double> theta = of_nature(model, request.replicates[i]);
-    e[i] = true_restitutions(model, theta, request.dataset, size.diameter, size.velocity);
+    e[i] = restitution_curve(model, theta, {request.dataset, size.diameter}, size.velocity,
+                             Effects::of_nature);
     if (!size.captures) return;
     const CaptureVelocity found =
         capture_velocity(model, theta, request.dataset, size.diameter, size.capture_velocity.value);

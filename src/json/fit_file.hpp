@@ -250,9 +250,9 @@ struct FitFile {
   struct Goodness {
     OrReason<double> chi2;
     int dof = 0;
-    OrReason<double> p_value, rmse, noise_scale;
+    OrReason<double> p_value, minus_two_log_likelihood, rmse, noise_scale;
     std::string noise_text;
-    RECOIL_FIELDS(chi2, dof, p_value, rmse, noise_scale, noise_text)
+    RECOIL_FIELDS(chi2, dof, p_value, minus_two_log_likelihood, rmse, noise_scale, noise_text)
   };
 
   struct NoiseCandidate {

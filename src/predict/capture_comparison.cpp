@@ -138,8 +138,9 @@ void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
 double largest_restitution(const FitResult& fitted, std::size_t dataset, double fastest) {
   const double diameter = fitted.model.contacts[dataset].reference_diameter;
   double largest = 0.0;
-  for (const double e : true_restitutions(fitted.model, fitted.theta, dataset, diameter,
-                                          log_spaced(1e-3 * fastest, fastest, 60))) {
+  for (const double e :
+       restitution_curve(fitted.model, fitted.theta, {dataset, diameter},
+                         log_spaced(1e-3 * fastest, fastest, 60), Effects::of_nature)) {
     if (std::isfinite(e)) largest = std::max(largest, e);
   }
   return std::min(largest, 1.0);

@@ -134,21 +134,6 @@ BandedValue banded(double value, std::vector<double> replicates, double level) {
   return out;
 }
 
-std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
-                                      std::size_t dataset, double diameter,
-                                      const std::vector<double>& velocities) {
-  std::vector<PointConditions> points;
-  for (const double v : velocities) points.push_back({dataset, diameter, v});
-  PointPredictor predictor(model, std::move(points), Effects::of_nature);
-  predictor.evaluate(theta, false);
-  std::vector<double> e;
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    const ImpactResult& at = predictor.at(i);
-    e.push_back(at.usable() ? std::sqrt(std::max(0.0, at.restitution_squared)) : std::nan(""));
-  }
-  return e;
-}
-
 PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
                                        const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options) {
@@ -182,7 +167,8 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
   }
   out.velocity = velocity_grid(out.size_curves, slowest, fastest, options.velocities);
   for (SizeCurve& size : out.size_curves) {
-    size.restitution = true_restitutions(model, fitted.theta, dataset, size.diameter, out.velocity);
+    size.restitution = restitution_curve(model, fitted.theta, {dataset, size.diameter},
+                                         out.velocity, Effects::of_nature);
   }
 
   const std::vector<SizeBin> bins = spread_within_bins(sizes.bins, options.parts);
@@ -222,8 +208,9 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
     for (const Mixture& m : at_points) predicted.push_back(m.average[c]);
     out.miss[c] = miss(predicted, point_restitution);
   }
-  out.miss_single =
-      miss(true_restitutions(model, fitted.theta, dataset, d10, point_velocity), point_restitution);
+  out.miss_single = miss(
+      restitution_curve(model, fitted.theta, {dataset, d10}, point_velocity, Effects::of_nature),
+      point_restitution);
   return out;
 }
 

@@ -39,12 +39,6 @@ struct BandedValue {
 /// The value of the fit with the percentiles of the replicates; NaN: no value.
 BandedValue banded(double value, std::vector<double> replicates, double level);
 
-/// e of spheres of one size at every velocity, without errors of the measurement [1]; NaN if an
-/// impact cannot be solved.
-std::vector<double> true_restitutions(const ImpactModel& model, std::span<const double> theta,
-                                      std::size_t dataset, double diameter,
-                                      const std::vector<double>& velocities);
-
 /// A size of a mixture with its own curve; d10 is the mean diameter.
 enum class NamedSize { smallest, d10, largest };
 template <>

@@ -41,12 +41,9 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
   out.density = materials_under(model, theta, at.dataset).density;
   out.groups = impact_groups(out.conditions);
   out.scales = impact_scales(out.conditions);
-  ImpactOptions options;
-  options.adhesion = model.adhesion;
-  options.phase = model.phase;
+  ImpactOptions options = model.impact_options(true);
   options.budget = true;
-  options.gradient = true;
-  out.extended = !model.chain.empty();
+  out.extended = !model.chain.empty() || averages_over_sizes(model, at.dataset);
   if (out.extended) {
     const Prediction measured = predict(model, theta, at.dataset, at.diameter, at.velocity, false);
     if (!measured.usable()) refuse_impact(at, " with its mechanisms", measured.outcome);

@@ -14,12 +14,13 @@ namespace recoil {
 inline constexpr std::pair<double, double> velocity_limits = {1e-7, 1e4};
 inline constexpr std::pair<double, double> diameter_limits_um = {1e-3, 1e6};
 
-/// One impact of a model: the measured e, including mechanisms, and the impact of the base model at
-/// the contact, with the conditions that the mechanisms produce.
+/// One impact of a model: the measured e as a fit predicts it, with mechanisms and averaged over
+/// sizes that the dataset states, and the impact of the base model at the contact of one sphere,
+/// with the conditions that the mechanisms produce.
 struct SimulatedImpact {
   PointConditions asked;             ///< dataset, diameter [m], incident velocity [m/s]
   double restitution_squared = 0.0;  ///< as measured; below zero for a capture, see ImpactResult
-  bool extended = false;             ///< true: mechanisms act
+  bool extended = false;             ///< true: mechanisms act, or e averages over sizes
   ImpactConditions conditions;       ///< at the contact
   double diameter = 0.0;             ///< diameter of the sphere at the contact [m]
   double density = 0.0;              ///< density of the sphere [kg/m3]

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "estimate/likelihood.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"
 
@@ -146,7 +147,7 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
     fit.points += static_cast<int>(dataset.points.size());
   }
   fit.chi2 = f.chi2;
-  fit.sd_stated = f.data.noise.sd_stated && f.dof > 0;
+  if (f.data.noise.sd_stated) fit.minus_two_log_likelihood = minus_two_log_likelihood(f);
   fit.rmse = f.rmse;
   fit.held_out_rmse = law.held_out_rmse;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {
@@ -186,8 +187,8 @@ struct LawsFile {
 
 std::optional<double> ComparedFit::aicc() const {
   const int k = free_parameters;
-  if (!sd_stated || points - k - 1 <= 0) return std::nullopt;
-  return chi2 + 2.0 * k + 2.0 * k * (k + 1.0) / (points - k - 1.0);
+  if (!minus_two_log_likelihood || points - k - 1 <= 0) return std::nullopt;
+  return *minus_two_log_likelihood + 2.0 * k + 2.0 * k * (k + 1.0) / (points - k - 1.0);
 }
 
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
@@ -201,7 +202,7 @@ ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
     fit.points += static_cast<int>(dataset.points);
   }
   fit.chi2 = read.goodness.chi2.value.value_or(NAN);
-  fit.sd_stated = read.goodness.p_value.value.has_value();
+  fit.minus_two_log_likelihood = read.goodness.minus_two_log_likelihood.value;
   fit.rmse = read.goodness.rmse.value.value_or(NAN);
   fit.held_out_rmse = read.full.held_out_rmse.value;
   for (const auto& [name, parameter] : read.parameters) {

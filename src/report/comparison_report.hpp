@@ -29,19 +29,20 @@ struct ComparedFit {
   std::vector<std::string> mechanisms;
   std::vector<std::string> data;  ///< id and sha256 of every dataset
   double chi2 = 0.0;
+  /// `minus_two_log_likelihood`; nullopt without stated standard deviations, because every fit then
+  /// estimates its own.
+  std::optional<double> minus_two_log_likelihood;
   int points = 0;
   int free_parameters = 0;
-  bool sd_stated = false;
   double rmse = 0.0;  ///< rms residual of e [1]
   std::optional<double> held_out_rmse;
   std::vector<ComparedQuantity> quantities;  ///< parameters, then capture velocities
 
-  RECOIL_FIELDS(adhesion, mechanisms, data, points, free_parameters, chi2, sd_stated, rmse,
-                held_out_rmse, quantities)
+  RECOIL_FIELDS(adhesion, mechanisms, data, points, free_parameters, chi2, minus_two_log_likelihood,
+                rmse, held_out_rmse, quantities)
 
-  /// Akaike's criterion for small samples, chi^2 + 2 k + 2 k (k + 1) / (n - k - 1) (Hurvich & Tsai
-  /// 1989, Biometrika 76, 297). nullopt without stated standard deviations, because every fit then
-  /// estimates its own, and for too few points.
+  /// Akaike's criterion for small samples, -2 ln L + 2 k + 2 k (k + 1) / (n - k - 1) (Hurvich &
+  /// Tsai 1989, Biometrika 76, 297). nullopt without a likelihood and for too few points.
   std::optional<double> aicc() const;
 };
 

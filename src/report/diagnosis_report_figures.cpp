@@ -136,19 +136,14 @@ struct TwoCurves {
 
 TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, std::size_t series,
                     plot::Range velocities) {
-  std::vector<PointConditions> points;
   TwoCurves curves;
   curves.velocity = log_spaced(velocities.lower, velocities.upper, curve_points);
-  for (const double v : curves.velocity) points.push_back({dataset, diameter, v, series});
-  const auto restitutions = [&](const FitResult& fit) {
-    std::vector<double> values;
-    for (const Prediction& one : predict(fit.model, fit.theta, points, false)) {
-      values.push_back(one.usable() ? one.restitution() : NAN);
-    }
-    return values;
+  const auto curve_of = [&](const FitResult& fit) {
+    return restitution_curve(fit.model, fit.theta, {dataset, diameter, 0.0, series},
+                             curves.velocity);
   };
-  curves.base = restitutions(d.base);
-  curves.extended = restitutions(*d.extended()->fit);
+  curves.base = curve_of(d.base);
+  curves.extended = curve_of(*d.extended()->fit);
   return curves;
 }
 

@@ -79,10 +79,14 @@ std::string_view strategy_words(Strategy strategy) {
 }
 
 std::string starts_words(const FitResult& f) {
-  const auto agreeing = std::count_if(f.starts.begin(), f.starts.end(), [](const auto& start) {
-    return start.outcome == StartOutcome::best || start.outcome == StartOutcome::same;
-  });
-  return fmt::format("{} of {} reach the same minimum", agreeing, f.starts.size());
+  const auto count = [&](StartOutcome outcome) {
+    return std::count_if(f.starts.begin(), f.starts.end(),
+                         [&](const auto& start) { return start.outcome == outcome; });
+  };
+  const auto tied = count(StartOutcome::tie);
+  return fmt::format("{} of {} starts reach the same minimum{}", 1 + count(StartOutcome::same),
+                     f.starts.size(),
+                     tied > 0 ? fmt::format(", {} its chi2 at other parameters", tied) : "");
 }
 
 }  // namespace

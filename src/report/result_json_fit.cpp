@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "estimate/likelihood.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
@@ -305,6 +306,10 @@ FitFile::Goodness goodness_of(const FitResult& f) {
                       stated ? "no degrees of freedom are left"
                              : "no standard deviations are stated: the noise is estimated from the "
                                "fit"},
+          .minus_two_log_likelihood =
+              {stated ? minus_two_log_likelihood(f) : std::nullopt,
+               stated ? "captures have no likelihood under Student's t"
+                      : "no standard deviations are stated: every fit estimates its own"},
           .rmse = rmse_of(f),
           .noise_scale = {f.noise_scale, "the noise could not be estimated"},
           .noise_text = noise_words(f)};
@@ -501,6 +506,20 @@ FitFile::Full full_entry(const Analysis& a, const TwoPointComparison& comparison
   return out;
 }
 
+OrReason<double> compared_error(const ImpactModel& model, const ComparisonRow& row,
+                                std::size_t slot) {
+  if (!row.failure.empty()) return {std::nullopt, row.failure};
+  if (row.standard_errors.empty()) {
+    return {std::nullopt, row.row == ComparisonWay::two_point
+                              ? "two points leave nothing to estimate an error from"
+                          : row.noise_known ? "the covariance is singular"
+                                            : "the noise is unknown"};
+  }
+  const double error = row.standard_errors[slot];
+  return {only_if(error > 0.0, error),
+          model.slots[slot].free ? "the estimate rests on a bound" : "the parameter is fixed"};
+}
+
 FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& comparison,
                                  const ComparisonRow& row) {
   const ImpactModel& model = a.fitted.model;
@@ -513,10 +532,8 @@ FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& co
   out.f0 = {f0, row.failure};
   out.C_H = {at(row.theta, model.slot_C_H[d]), row.failure};
   out.C_A = {at(row.theta, model.slot_C_A[d]), row.failure};
-  const std::string no_errors =
-      row.failure.empty() ? "two points leave nothing to estimate an error from" : row.failure;
-  out.C_H_standard_error = {at(row.standard_errors, model.slot_C_H[d]), no_errors};
-  out.C_A_standard_error = {at(row.standard_errors, model.slot_C_A[d]), no_errors};
+  out.C_H_standard_error = compared_error(model, row, model.slot_C_H[d]);
+  out.C_A_standard_error = compared_error(model, row, model.slot_C_A[d]);
   out.rmse = {row.rmse, row.failure};
   out.held_out_rmse = {row.held_out_rmse,
                        row.failure.empty() ? held_out_why(comparison) : row.failure};
@@ -669,7 +686,11 @@ std::string fit_json(const Analysis& a) {
   out.correlation = matrix_of(
       f, [&](std::size_t i, std::size_t j) { return i == j ? 1.0 : correlation(a, i, j); });
   out.derived.capture_velocity = captures_of(a);
-  out.solver = {f.model.solver.kind, f.handovers, f.ending, f.strategy};
+  long handovers = f.handovers;
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    handovers += comparison.handovers;
+  }
+  out.solver = {f.model.solver.kind, handovers, f.ending, f.strategy};
   out.goodness = goodness_of(f);
   out.noise = noise_of(f);
   out.identifiability = identifiability_of(a);

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "estimate/reweighting.hpp"
 #include "estimate/input_errors.hpp"
+#include "estimate/reweighting.hpp"
 #include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
@@ -278,12 +278,19 @@ Sentences mechanism_warnings(const ImpactModel& model) {
 
 Sentences start_warnings(const FitResult& fitted) {
   Sentences warnings;
-  for (const StartSummary& start : fitted.starts) {
-    for (const std::size_t j : start.differing) {
-      warnings.push_back(
-          say("another minimum has the same chi2, with {} = {:.4g} instead of {:.4g}",
-              symbol(fitted.model.slots[j].label()), start.end[j], fitted.best_start().end[j]));
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    std::vector<double> ends = {fitted.best_start().end[j]};
+    for (const StartSummary& start : fitted.starts) {
+      const auto& differing = start.differing;
+      if (std::find(differing.begin(), differing.end(), j) != differing.end()) {
+        ends.push_back(start.end[j]);
+      }
     }
+    if (ends.size() < 2) continue;
+    const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
+    warnings.push_back(
+        say("starts reach the same chi2 at other parameters: {} from {:.4g} to {:.4g}",
+            symbol(fitted.model.slots[j].label()), *least, *most));
   }
   const auto add = [&](std::ptrdiff_t count, const char* problem) {
     if (count > 0) {

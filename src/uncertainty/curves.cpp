@@ -32,15 +32,8 @@ std::vector<double> velocity_grid(double slowest, double fastest, double capture
 /// e at every velocity [1]; NaN if the impact cannot be solved.
 std::vector<double> evaluate(const ImpactModel& model, std::span<const double> theta,
                              const RestitutionCurve& curve) {
-  std::vector<PointConditions> points;
-  for (const double v : curve.velocity) {
-    points.push_back({curve.dataset, curve.diameter, v, curve.series_number});
-  }
-  std::vector<double> e;
-  for (const Prediction& at : predict(model, theta, std::move(points), false)) {
-    e.push_back(at.usable() ? at.restitution() : std::nan(""));
-  }
-  return e;
+  return restitution_curve(model, theta, {curve.dataset, curve.diameter, 0.0, curve.series_number},
+                           curve.velocity);
 }
 
 void add_band(const ImpactModel& model, const BandSource& band, RestitutionCurve& curve) {

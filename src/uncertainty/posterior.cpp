@@ -13,7 +13,7 @@
 #include "core/statistics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/residual.hpp"
+#include "estimate/likelihood.hpp"
 #include "estimate/shared_errors.hpp"
 
 namespace recoil {
@@ -100,17 +100,8 @@ class Posterior {
     // ln of each point's density at its peak, for scale 1. The density of a mean is normal in e.
     for (std::size_t i = 0; i < data_.points.size(); ++i) {
       const Observation& point = data_.points[i];
-      const PointWeights& own = weights_.points[i];
-      const double square = point.restitution * point.restitution;
-      double ln = 0.0;
-      if (own.peaks(point)) ln -= 0.5 * own.peak.deviance;
-      if (!point.censored) {
-        ln -= 0.5 * std::log(2.0 * std::numbers::pi);
-        ln += own.peaks(point)
-                  ? -std::log(own.mean_sd)
-                  : std::log(slope_in_restitution(weighted_residual(point, own, square), square));
-      }
-      peaks_.push_back(ln);
+      peaks_.push_back(
+          log_peak_density(point, weights_.points[i], point.restitution * point.restitution));
     }
   }
   Posterior(const Posterior&) = delete;

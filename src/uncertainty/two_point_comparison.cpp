@@ -109,6 +109,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
         root_mean_square(fitted.model, comparison.result.theta, data, fitted.weights, split.unseen);
   }
   const FitResult on_one = fit_of_diameter(fitted, dataset, split);
+  comparison.handovers = on_one.handovers;
   if (on_one.usable) {
     comparison.full_held_out_rmse =
         root_mean_square(fitted.model, on_one.theta, data, fitted.weights, split.unseen);
@@ -148,6 +149,7 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
     const bool free = way == ComparisonWay::full_f0_free;
     std::optional<FitResult> other;
     if (!adhesion_is(fitted.model, free)) other = with_adhesion(fitted, free);
+    if (other && !comparisons.empty()) comparisons.front().handovers += other->handovers;
     for (TwoPointComparison& comparison : comparisons) {
       ComparisonRow& row = comparison.rows.emplace_back();
       row.row = way;
@@ -157,8 +159,11 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
       }
       const TwoPointComparison own =
           other ? compare_two_point(*other, comparison.dataset) : comparison;
-      row.theta = other ? other->theta : fitted.theta;
-      row.standard_errors = errors_with_exact_constants(other ? *other : fitted);
+      if (other) comparison.handovers += own.handovers;
+      const FitResult& full = other ? *other : fitted;
+      row.theta = full.theta;
+      row.standard_errors = errors_with_exact_constants(full);
+      row.noise_known = full.weights.noise.known;
       row.rmse = own.full_rmse;
       row.held_out_rmse = own.full_held_out_rmse;
     }

@@ -43,8 +43,10 @@ struct ComparisonRow {
   std::optional<double> rmse;  ///< root mean square of e - e_model at all points of the dataset [1]
   /// The same at the diameters that the calibration did not use [1].
   std::optional<double> held_out_rmse;
-  /// [slots], with exact constants and, if it is not fitted, exact f0; empty for two points.
+  /// [slots], with exact constants and, if it is not fitted, exact f0; 0 for fixed parameters and
+  /// those at a bound; empty for two points, if the noise is not known, or if J'J is singular.
   std::vector<double> standard_errors = {};
+  bool noise_known = true;  ///< Noise::known of the fit
 };
 
 /// Comparison of the two-point calibration with the fit to all points: both are calibrated on one
@@ -59,6 +61,7 @@ struct TwoPointComparison {
   std::optional<double> full_held_out_rmse;
   std::optional<NothingHeldOut> nothing_held_out;
   std::string refit_failure;        ///< failure of the full fit of that diameter alone
+  long handovers = 0;               ///< FitResult::handovers of the fits for this comparison
   std::vector<ComparisonRow> rows;  ///< two points, all points, all points with f0 free
   std::vector<double> spread;       ///< sd of each slot over the replicates, two-point
   std::vector<double> full_spread;  ///< the same for the full fit

@@ -10,6 +10,7 @@
 #include "estimate/fit.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/predictor.hpp"
+#include "estimate/two_point.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {
@@ -122,6 +123,24 @@ TEST_P(AdhesionFit, FindsWhatAnotherIntegratorUsed) {
   EXPECT_NEAR(found.theta[2] / truth.W, 1.0, 0.01);
 }
 
+/// The two-point calibration of the larger spheres with the work of adhesion of the truth.
+TwoPointResult two_point_of(const SteppedTruth& truth, FitSpec spec) {
+  spec.parameters.back().free = false;
+  spec.parameters.back().initial = truth.W;
+  const std::vector<Dataset> datasets = data_of(truth);
+  const ImpactModel model = make_model(spec, datasets);
+  return two_point(model, gather(datasets), 0, 6.89e-6);
+}
+
+TEST_P(AdhesionFit, TwoPointsFindWhatAnotherIntegratorUsed) {
+  SteppedTruth truth;
+  truth.law = GetParam();
+  const TwoPointResult found = two_point_of(truth, spec_of(GetParam()));
+  ASSERT_EQ(found.status, TwoPointStatus::converged);
+  EXPECT_NEAR(found.theta[0] / truth.C_H, 1.0, 0.01);
+  EXPECT_NEAR(found.theta[1] / truth.C_A, 1.0, 0.01);
+}
+
 TEST_P(AdhesionFit, CapturesWhereTheOtherIntegratorDoes) {
   SteppedTruth truth;
   truth.law = GetParam();
@@ -162,6 +181,16 @@ TEST(MaugisFit, FindsTheWorkOfAJkrTruthWhereItsForcesAreShort) {
   EXPECT_NEAR(found.theta[0] / truth.C_H, 1.0, 0.05);
   EXPECT_NEAR(found.theta[1] / truth.C_A, 1.0, 0.05);
   EXPECT_NEAR(found.theta[2] / truth.W, 1.0, 0.03);
+}
+
+TEST(MaugisFit, TwoPointsFindTheDampingsOfAJkrTruthWhereItsForcesAreShort) {
+  FitSpec spec = spec_of(AdhesionLaw::maugis);
+  spec.separation = 5e-11;
+  const SteppedTruth truth;
+  const TwoPointResult found = two_point_of(truth, spec);
+  ASSERT_EQ(found.status, TwoPointStatus::converged);
+  EXPECT_NEAR(found.theta[0] / truth.C_H, 1.0, 0.05);
+  EXPECT_NEAR(found.theta[1] / truth.C_A, 1.0, 0.05);
 }
 
 TEST(MaugisFit, KnowsItsSlopesAndItsCapture) {

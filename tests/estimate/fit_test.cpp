@@ -9,7 +9,6 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/two_point.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {
@@ -269,48 +268,6 @@ TEST(CaptureVelocity, IsFoundFromWhereverOneLooksFirst) {
       EXPECT_NEAR(again.value / found, 1.0, 1e-8) << times;
     }
   }
-}
-
-TwoPointResult two_point_of(const Dataset& data) {
-  const std::vector<Dataset> datasets = {data};
-  return two_point(make_model(synthetic::spec(), datasets), gather(datasets), 0, 4.9e-6);
-}
-
-TEST(TwoPoint, RecoversTheTruthFromTwoNoiselessPoints) {
-  const Design design;
-  const TwoPointResult result = two_point_of(synthetic::dataset(design));
-  ASSERT_EQ(result.status, TwoPointStatus::converged);
-  EXPECT_NEAR(result.theta[0] / design.C_H, 1.0, 1e-6);
-  EXPECT_NEAR(result.theta[1] / design.C_A, 1.0, 1e-6);
-  EXPECT_EQ(result.diameter, 4.9e-6);
-  EXPECT_GT(result.iterations, 2);
-}
-
-TEST(TwoPoint, SaysWhenNoHertzDampingIsLeftOver) {
-  Design design;
-  design.diameters = {4.9e-6};
-  Dataset data = synthetic::dataset(design);
-  data.points.front().restitution = 0.45;  // strong adhesion damping at the lowest velocity ...
-  data.points.back().restitution = 0.97;   // ... and hardly any loss at the highest
-  const TwoPointResult result = two_point_of(data);
-  EXPECT_EQ(result.status, TwoPointStatus::no_hertz_damping);
-  EXPECT_EQ(result.theta[0], 0.0);
-}
-
-TEST(TwoPoint, SaysWhenNoAdhesionDampingFits) {
-  Design design;
-  design.diameters = {4.9e-6};
-  Dataset data = synthetic::dataset(design);
-  data.points.front().restitution = 0.999;
-  const TwoPointResult result = two_point_of(data);
-  EXPECT_EQ(result.status, TwoPointStatus::no_adhesion_damping);
-  EXPECT_EQ(result.theta[1], 0.0);
-}
-
-TEST(TwoPoint, NeedsTwoVelocities) {
-  Design design;
-  design.velocities = {5.0};
-  EXPECT_EQ(two_point_of(synthetic::dataset(design)).status, TwoPointStatus::too_few_points);
 }
 
 }  // namespace

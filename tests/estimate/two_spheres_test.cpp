@@ -10,6 +10,7 @@
 #include "estimate/fit.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/predictor.hpp"
+#include "estimate/two_point.hpp"
 #include "support/synthetic.hpp"
 #include "validation/truth/impact_truth.hpp"
 
@@ -90,13 +91,27 @@ TEST(TwoSpheres, MechanismsMoveThemInTheSameWay) {
   EXPECT_THROW(make_model(spec, {two_spheres()}), InputError);
 }
 
-TEST(TwoSpheres, FitFindsWhatMadeThePoints) {
+Dataset points_of_two_spheres() {
   Dataset data = two_spheres();
   for (ImpactPoint& point : data.points) {
     point.restitution = true_restitution_of_two(point.diameter, point.incident_velocity);
     point.captured = point.restitution == 0.0 ? 1 : 0;
     point.restitution_sd = 1e-4;  // the residual allows for a bias of its square
   }
+  return data;
+}
+
+TEST(TwoSpheres, TwoPointsFindWhatMadeThePoints) {
+  const Dataset data = points_of_two_spheres();
+  const ImpactModel model = make_model(synthetic::spec(), {data});
+  const TwoPointResult found = two_point(model, gather({data}), 0, 4.9e-6);
+  ASSERT_EQ(found.status, TwoPointStatus::converged);
+  EXPECT_NEAR(found.theta[model.slot_C_H[0]], 3e-3, 1e-7);
+  EXPECT_NEAR(found.theta[model.slot_C_A[0]], 0.03, 1e-6);
+}
+
+TEST(TwoSpheres, FitFindsWhatMadeThePoints) {
+  const Dataset data = points_of_two_spheres();
   const FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
   ASSERT_TRUE(fitted.usable);
   EXPECT_NEAR(fitted.theta[fitted.model.slot_C_H[0]], 3e-3, 1e-7);

@@ -17,7 +17,8 @@ std::string fit_json(const std::string& id, const std::string& adhesion, double 
   return R"({"format_version": 2, "fit": {"id": ")" + id + R"("}, "options": {"adhesion": ")" +
          adhesion + R"(", "mechanisms": []}, "datasets": [{"id": "d", "sha256": ")" + sha +
          R"(", "points": 20}], "goodness": {"chi2": )" + std::to_string(chi2) +
-         R"(, "p_value": 0.4, "rmse": 0.02}, "full": {"held_out_rmse": 0.03}, "parameters": {
+         R"(, "minus_two_log_likelihood": )" + std::to_string(chi2) +
+         R"(, "rmse": 0.02}, "full": {"held_out_rmse": 0.03}, "parameters": {
            "C_H": {"unit": "s/m", "free": true, "value": 0.003, "intervals": {"wald": [0.002, 0.004]},
                    "recommended": {"interval": "wald"}},
            "C_A": {"unit": "s/m", "free": true, "value": 0.05, "intervals": {"wald": )" +
@@ -57,6 +58,14 @@ TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
   EXPECT_THROW(compared_fit("x.json", "{"), InputError);
   EXPECT_THROW(compared_fit("x.json", R"({"verdict": "adequate"})"), InputError);
   EXPECT_THROW(compared_fit("x.json", R"({"format_version": 2, "parameters": {}})"), InputError);
+}
+
+TEST(Comparison, HasNoAiccWithoutALikelihood) {
+  std::string text = fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]");
+  const std::string key = "\"minus_two_log_likelihood\": ";
+  const auto value = text.find(key) + key.size();
+  text.replace(value, text.find(',', value) - value, "null");
+  EXPECT_FALSE(compared_fit("a", text).aicc());
 }
 
 }  // namespace

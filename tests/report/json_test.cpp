@@ -249,5 +249,23 @@ TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
   EXPECT_TRUE(PlainJson::accept(fit_json(analysis)));
 }
 
+TEST(FitJson, SaysWhyAMethodHasNoStandardError) {
+  Analysis a = sample::four_diameters();
+  std::vector<ComparisonRow>& rows = a.uncertainty.two_point.front().rows;
+  rows[1].standard_errors.clear();
+  rows[2] = {ComparisonWay::full_f0_free, a.fitted.theta, "", 0.03, 0.04, {0.0, 0.001, 0.0}};
+  const PlainJson json = PlainJson::parse(fit_json(a));
+  const PlainJson& comparison = json["comparison"];
+  EXPECT_EQ(comparison[0]["C_H_standard_error_why"],
+            "two points leave nothing to estimate an error from");
+  EXPECT_EQ(comparison[1]["C_H_standard_error_why"], "the covariance is singular");
+  EXPECT_TRUE(comparison[2]["C_H_standard_error"].is_null());
+  EXPECT_EQ(comparison[2]["C_H_standard_error_why"], "the estimate rests on a bound");
+  EXPECT_EQ(comparison[2]["C_A_standard_error"], 0.001);
+  rows[1].noise_known = false;
+  EXPECT_EQ(PlainJson::parse(fit_json(a))["comparison"][1]["C_H_standard_error_why"],
+            "the noise is unknown");
+}
+
 }  // namespace
 }  // namespace recoil

@@ -1,6 +1,7 @@
 // Bootstrap, profile and comparison on a fit with a known answer.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -90,6 +91,23 @@ TEST(TwoPoints, AreComparedWithAFitOfTheSameF0) {
     EXPECT_LT(*rows[1].rmse, *rows[0].rmse);
     EXPECT_LT(*rows[2].rmse, *rows[1].rmse);
     EXPECT_TRUE(rows[1].held_out_rmse && rows[2].held_out_rmse);
+  }
+}
+
+TEST(TwoPoints, FullFitsInAValleyHaveNoStandardErrors) {
+  Dataset data = synthetic::dataset({.diameters = {4.9e-6}, .velocities = {3.0, 3.0, 3.0, 3.0}});
+  constexpr std::array measured = {0.600, 0.610, 0.590, 0.605};
+  for (std::size_t i = 0; i < measured.size(); ++i) data.points[i].restitution = measured[i];
+  const FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
+  std::vector<TwoPointComparison> comparisons = compare_two_points(fitted);
+  add_comparison_rows(fitted, comparisons);
+  const std::vector<ComparisonRow>& rows = comparisons.front().rows;
+  EXPECT_EQ(rows[0].failure, "too few points");
+  EXPECT_TRUE(rows[0].theta.empty());
+  for (const std::size_t k : {1, 2}) {
+    EXPECT_TRUE(rows[k].standard_errors.empty());
+    EXPECT_TRUE(rows[k].noise_known);
+    EXPECT_EQ(rows[k].failure, "");
   }
 }
 
