@@ -56,7 +56,6 @@ TEST(Install, AnotherProjectFindsTheEstimatorAndTheLibrary) {
             0);
   place.write("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
 project(mine LANGUAGES CXX)
-set(CMAKE_CXX_STANDARD 20)
 find_package(recoil 0.2 REQUIRED)
 add_executable(fits fits.cpp)
 target_link_libraries(fits PRIVATE recoil::estimator)
@@ -112,7 +111,8 @@ int main(int, char** arguments) {
 }
 )");
   const Outcome built = run_command(
-      {"sh", "-c", "cmake -B build -DCMAKE_PREFIX_PATH=\"$0\" && cmake --build build", prefix},
+      {"sh", "-c", "cmake -G Ninja -B build -DCMAKE_PREFIX_PATH=\"$0\" && cmake --build build",
+       prefix},
       place.path());
   ASSERT_EQ(built.status, 0) << built.out << built.err;
   EXPECT_EQ(run_command({place / "build/fits"}, place.path()).out, "1.000000 2.000000\n");
