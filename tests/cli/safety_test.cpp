@@ -7,12 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "support/hostile_names.hpp"
 #include "support/started.hpp"
@@ -262,15 +260,11 @@ TEST(Safety, PicturesNeedNoOtherProgram) {
 TEST(Safety, LimitsAndHangUpsKeepWhatIsFinished) {
   for (const int signal : {SIGHUP, SIGXCPU}) {
     const Workplace place;
-    Outcome ended;
     const fs::path kept = place / "out/unfinished-fit.json.jsonl";
-    for (int delay = 500; delay < 20000 && !fs::exists(kept); delay *= 2) {
-      Started run({"fit", "fit.toml", "--replicates", "1000000", "--out", "out"}, place.path());
-      std::this_thread::sleep_for(std::chrono::milliseconds(delay));
-      run.send(signal);
-      ended = run.end();
-    }
-    EXPECT_EQ(ended.status, 128 + signal);
+    Started run({"fit", "fit.toml", "--replicates", "1000000", "--out", "out"}, place.path());
+    ASSERT_TRUE(run.wait_until([&] { return fs::exists(kept); }));
+    run.send(signal);
+    EXPECT_EQ(run.end().status, 128 + signal);
     EXPECT_TRUE(fs::exists(kept));
   }
 }

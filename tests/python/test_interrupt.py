@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -36,6 +37,18 @@ print(recoil.fit("misfit.toml", replicates=0).json == before)
 """
 
 
+def worked(pid):
+    """Processor time of a process so far [s]."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def wait_until_worked(pid, seconds):
+    until = worked(pid) + seconds
+    while worked(pid) < until:
+        time.sleep(0.01)
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_ctrl_c_ends_it_within_a_second(here, name):
     before = sorted(p.name for p in here.iterdir())
@@ -43,7 +56,7 @@ def test_ctrl_c_ends_it_within_a_second(here, name):
                                cwd=here, stdout=subprocess.PIPE, text=True, env=dict(os.environ))
     try:
         assert program.stdout.readline() == "ready\n"
-        time.sleep(1.0)
+        wait_until_worked(program.pid, 1.0)
         program.send_signal(signal.SIGINT)
         begun = time.monotonic()
         assert program.stdout.readline() == "stopped\n"

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <ctime>
 #include <thread>
 
 namespace support {
@@ -46,10 +47,22 @@ bool Started::wait_until(const std::function<bool()>& happened) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!happened()) {
     if (!runs() || std::chrono::steady_clock::now() > limit) return happened();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return true;
 }
+
+bool Started::wait_until_worked(std::chrono::milliseconds time) {
+  clockid_t clock = 0;
+  if (clock_getcpuclockid(child_, &clock) != 0) return false;
+  return wait_until([&] {
+    timespec worked{};
+    return clock_gettime(clock, &worked) == 0 &&
+           std::chrono::seconds(worked.tv_sec) + std::chrono::nanoseconds(worked.tv_nsec) >= time;
+  });
+}
+
+int Started::signal() const { return WIFSIGNALED(status_) ? WTERMSIG(status_) : 0; }
 
 Outcome Started::end() {
   if (!ended_) waitpid(child_, &status_, 0);

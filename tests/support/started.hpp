@@ -27,8 +27,12 @@ class Started {
   bool runs();
   /// Waits until `happened`, a minute at most, as long as it runs. @return whether it happened
   bool wait_until(const std::function<bool()>& happened);
-  /// Waits for its end.
+  /// Waits until it has worked for so long: processor time, whatever else the machine does.
+  bool wait_until_worked(std::chrono::milliseconds time);
+  /// Waits for its end. The status of one that a signal ended is 128 and the signal.
   Outcome end();
+  /// The signal that ended it; 0 if it ended by itself. @pre it has ended
+  int signal() const;
 
  private:
   TemporaryFolder outputs_;
