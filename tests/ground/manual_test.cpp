@@ -55,6 +55,47 @@ TEST(Manual, HelpPrintsEveryPage) {
   }
 }
 
+/// The sources that a page names in code: `fit.cpp`, `src/core/units.cpp`, `result_json_*.cpp`.
+/// Names in capitals stand for others (`src/mechanism/ID.cpp`), and scripts belong to the user.
+std::set<std::string> sources_named_in(const std::string& text) {
+  static const std::regex code("`([^`\n]+)`");
+  static const std::regex source(R"([\w*./-]*\w*\.(?:cpp|hpp|js)\b)");
+  static const std::regex stands_for_others(R"((^|/)[A-Z]+\.)");
+  std::set<std::string> names;
+  for (auto at = std::sregex_iterator(text.begin(), text.end(), code); at != std::sregex_iterator();
+       ++at) {
+    const std::string words = (*at)[1];
+    for (auto it = std::sregex_iterator(words.begin(), words.end(), source);
+         it != std::sregex_iterator(); ++it) {
+      const std::string name = it->str();
+      if (name.front() != '.' && !std::regex_search(name, stands_for_others)) names.insert(name);
+    }
+  }
+  return names;
+}
+
+TEST(Manual, NamesSourcesThatExist) {
+  std::vector<std::string> files;
+  for (const fs::path& file : tree::project_files()) files.push_back("/" + file.string());
+  std::size_t named = 0;
+  std::vector<std::string> pages = page_names();
+  for (std::string& page : pages) page = "docs/" + page + ".md";
+  pages.insert(pages.end(), {"README.md", "CONTRIBUTING.md"});
+  for (const std::string& page : pages) {
+    for (const std::string& name : sources_named_in(tree::text_of(tree::root() / page))) {
+      ++named;
+      const std::string pattern = std::regex_replace(
+          std::regex_replace(name, std::regex("\\."), "\\."), std::regex("\\*"), "[^/]*");
+      const std::regex ends(".*/" + pattern);
+      EXPECT_TRUE(
+          std::any_of(files.begin(), files.end(),
+                      [&](const std::string& file) { return std::regex_match(file, ends); }))
+          << page << " names " << name << ", which does not exist";
+    }
+  }
+  EXPECT_GE(named, 20U) << "the search itself seems broken";
+}
+
 /// How often `heading` is a line of the pages whose names begin with `pages`.
 std::size_t times_headed(const std::string& pages, const std::string& heading) {
   std::size_t count = 0;
