@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "uncertainty/bootstrap.hpp"

@@ -14,8 +14,8 @@
 #include "export/files.hpp"
 #include "export/table.hpp"
 #include "json/fit_file.hpp"
-#include "report/words_dataset.hpp"
 #include "report/words_export.hpp"
+#include "report/words_restitution.hpp"
 
 namespace recoil {
 namespace {

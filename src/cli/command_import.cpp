@@ -11,6 +11,7 @@
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
+#include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

@@ -17,6 +17,7 @@
 #include "predict/validity.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {

@@ -9,8 +9,8 @@
 #include "data/material_table.hpp"
 #include "document/terminal.hpp"
 #include "report/comparison_report.hpp"
+#include "report/dataset_report.hpp"
 #include "report/result_json.hpp"
-#include "report/words_dataset.hpp"
 
 namespace recoil {
 

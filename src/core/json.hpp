@@ -1,6 +1,5 @@
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -34,7 +33,7 @@ inline constexpr int format_version = 2;
 ///
 /// `as_json` then writes {"lower": 0.0, "upper": 0.0}, and `read_json` reads it. A member may be
 /// - a number, a truth value, a string, or Json itself,
-/// - an enum with `NamesOf`: its name,
+/// - an enum with names: its name,
 /// - std::optional: null where it is empty,
 /// - `OrAbsent`: no key where it is empty,
 /// - `OrReason`: null where it is empty, and the reason under the same key with "_why",

@@ -5,34 +5,31 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace recoil {
 
-/// The names of the values of an enum. Specialise it beside the enum with the names in the order of
-/// the values, which count from 0 without a gap:
-///
-///   enum class IntervalKind { wald, profile };
-///   template <>
-///   struct NamesOf<IntervalKind> {
-///     static constexpr std::array<std::string_view, 2> names = {"wald", "profile"};
-///   };
-template <class Enum>
-struct NamesOf;
+template <class... Names>
+constexpr std::array<std::string_view, sizeof...(Names)> name_list(Names... names) {
+  return {names...};
+}
 
+/// An enum whose values have names: beside it stands a function `names_of_values` that returns them
+/// in the order of the values, which count from 0 without a gap.
+///
+///   constexpr auto names_of_values(MechanismKind) { return name_list("physics", "measurement"); }
 template <class Enum>
-concept NamedEnum = requires {
-  NamesOf<Enum>::names.size();
+concept NamedEnum = requires(Enum value) {
+  names_of_values(value).size();
 };
 
 /// The number of values of `Enum`.
 template <NamedEnum Enum>
-inline constexpr std::size_t count_of = NamesOf<Enum>::names.size();
+inline constexpr std::size_t count_of = names_of_values(Enum{}).size();
 
 template <NamedEnum Enum>
 constexpr std::string_view name_of(Enum value) {
-  return NamesOf<Enum>::names.at(static_cast<std::size_t>(value));
+  return names_of_values(value).at(static_cast<std::size_t>(value));
 }
 
 template <NamedEnum Enum>
@@ -51,7 +48,8 @@ constexpr std::array<Enum, count_of<Enum>> values_of() {
 /// Every name, in the order of the values.
 template <NamedEnum Enum>
 std::vector<std::string> all_names() {
-  return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
+  constexpr auto names = names_of_values(Enum{});
+  return {names.begin(), names.end()};
 }
 
 /// The value with this name; nullopt for an unknown name.

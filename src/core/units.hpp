@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,11 +31,10 @@ inline constexpr double standard_gravity = 9.80665;
 /// What a column of a data file or a value on the command line measures. Texts have no unit.
 enum class Dimension { text, count, ratio, length, velocity, time, pressure, temperature };
 
-template <>
-struct NamesOf<Dimension> {
-  static constexpr std::array<std::string_view, 8> names = {
-      "text", "count", "ratio", "length", "velocity", "time", "pressure", "temperature"};
-};
+constexpr auto names_of_values(Dimension) {
+  return name_list("text", "count", "ratio", "length", "velocity", "time", "pressure",
+                   "temperature");
+}
 
 /// The factor to SI of a unit name ("um", "cm/s", "%"); nullopt if `unit` does not belong to
 /// `dimension`.

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/json.hpp"
@@ -47,10 +45,7 @@ enum class TruthOrigin {
   recipe,   ///< the recipe of a reconstruction: its parameters, simulator and noise
   estimate  ///< the fit's own estimate, simulated independently of the fitter
 };
-template <>
-struct NamesOf<TruthOrigin> {
-  static constexpr std::array<std::string_view, 2> names = {"recipe", "estimate"};
-};
+constexpr auto names_of_values(TruthOrigin) { return name_list("recipe", "estimate"); }
 
 struct CoverageResult {
   int datasets = 0;

@@ -45,31 +45,18 @@ enum class Quantity {
   velocities_calibrated,
   sizes_calibrated,
 };
-template <>
-struct NamesOf<Quantity> {
-  static constexpr auto names = [] {
-    constexpr std::array<std::string_view, 14> own = {"series",
-                                                      "diameter",
-                                                      "incident_velocity",
-                                                      "restitution",
-                                                      "rebound_velocity",
-                                                      "restitution_sd",
-                                                      "velocity_sd",
-                                                      "diameter_sd",
-                                                      "series_diameter_sd",
-                                                      "events",
-                                                      "captured",
-                                                      "setting",
-                                                      "setting_velocity_sd",
-                                                      "launch"};
-    std::array<std::string_view, own.size() + count_of<Condition>> all{};
-    for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
-    for (const Condition condition : values_of<Condition>()) {
-      all[own.size() + static_cast<std::size_t>(condition)] = name_of(condition);
-    }
-    return all;
-  }();
-};
+constexpr auto names_of_values(Quantity) {
+  constexpr auto own =
+      name_list("series", "diameter", "incident_velocity", "restitution", "rebound_velocity",
+                "restitution_sd", "velocity_sd", "diameter_sd", "series_diameter_sd", "events",
+                "captured", "setting", "setting_velocity_sd", "launch");
+  std::array<std::string_view, own.size() + count_of<Condition>> all{};
+  for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
+  for (const Condition condition : values_of<Condition>()) {
+    all[own.size() + static_cast<std::size_t>(condition)] = name_of(condition);
+  }
+  return all;
+}
 
 /// The dimension of a quantity. Series, setting and launch are texts.
 Dimension dimension_of(Quantity quantity);

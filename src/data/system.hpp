@@ -15,19 +15,15 @@ class JsonNode;
 
 /// The origin of points. It accompanies everything computed from them.
 enum class Provenance { measured, digitised, reconstruction, synthetic };
-template <>
-struct NamesOf<Provenance> {
-  static constexpr std::array<std::string_view, 4> names = {"measured", "digitised",
-                                                            "reconstruction", "synthetic"};
-};
+constexpr auto names_of_values(Provenance) {
+  return name_list("measured", "digitised", "reconstruction", "synthetic");
+}
 
 /// How velocities were measured, which determines the possible errors of measurement.
 enum class Method { unknown, velocimeter, drop_heights, bounce_intervals, video };
-template <>
-struct NamesOf<Method> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "unknown", "velocimeter", "drop_heights", "bounce_intervals", "video"};
-};
+constexpr auto names_of_values(Method) {
+  return name_list("unknown", "velocimeter", "drop_heights", "bounce_intervals", "video");
+}
 
 /// A condition of the experiment besides velocities, diameters and materials.
 enum class Condition {
@@ -41,13 +37,11 @@ enum class Condition {
   velocities_calibrated,  ///< 0 or 1: readings were checked against a known velocity or height
   sizes_calibrated        ///< 0 or 1: the diameters were checked against a standard
 };
-template <>
-struct NamesOf<Condition> {
-  static constexpr std::array<std::string_view, 9> names = {
-      "ambient_pressure",      "relative_humidity",     "temperature",
-      "target_thickness",      "probe_height",          "neutralised",
-      "surface_rms_roughness", "velocities_calibrated", "sizes_calibrated"};
-};
+constexpr auto names_of_values(Condition) {
+  return name_list("ambient_pressure", "relative_humidity", "temperature", "target_thickness",
+                   "probe_height", "neutralised", "surface_rms_roughness", "velocities_calibrated",
+                   "sizes_calibrated");
+}
 
 /// The values of a condition.
 struct ConditionInfo : Range {
@@ -81,10 +75,7 @@ enum class Body {
   surface,
   pair  ///< both: a constant of the contact that the dataset states directly
 };
-template <>
-struct NamesOf<Body> {
-  static constexpr std::array<std::string_view, 3> names = {"particle", "surface", "pair"};
-};
+constexpr auto names_of_values(Body) { return name_list("particle", "surface", "pair"); }
 
 /// A constant that may be known with an error.
 enum class Constant {
@@ -97,12 +88,10 @@ enum class Constant {
   adhesion_energy,    ///< of a pair [J/m2]
   adhesion_force_f0,  ///< of a pair, at the reference diameter [N/m]
 };
-template <>
-struct NamesOf<Constant> {
-  static constexpr std::array<std::string_view, 8> names = {
-      "density",       "youngs_modulus", "poisson_ratio",   "surface_energy",
-      "gilman_factor", "stiffness_K",    "adhesion_energy", "adhesion_force_f0"};
-};
+constexpr auto names_of_values(Constant) {
+  return name_list("density", "youngs_modulus", "poisson_ratio", "surface_energy", "gilman_factor",
+                   "stiffness_K", "adhesion_energy", "adhesion_force_f0");
+}
 
 /// True for all constants except Poisson's ratio: they are positive, and their errors are factors.
 constexpr bool is_positive(Constant constant) { return constant != Constant::poisson_ratio; }

@@ -11,16 +11,6 @@
 
 namespace recoil {
 
-/// The reason why the value of a parameter is implausible.
-enum class Implausible {
-  outside_range,  ///< outside the range of the catalogue
-  beyond_limit    ///< beyond the limit of a dimensionless quantity that depends on it
-};
-template <>
-struct NamesOf<Implausible> {
-  static constexpr std::array<std::string_view, 2> names = {"outside_range", "beyond_limit"};
-};
-
 /// The estimate of a parameter of an added mechanism.
 struct FoundParameter {
   std::string label;
@@ -29,14 +19,14 @@ struct FoundParameter {
   /// Standard error, including the errors of the laws; 0 if it is fixed or at a bound.
   double sd = 0.0;
   double null_value = 0.0;
-  std::optional<Condition> stated_by;      ///< a condition of the data states its value
-  std::optional<Implausible> implausible;  ///< nullopt if its value is plausible
+  std::optional<Condition> stated_by;  ///< a condition of the data states its value
+  bool implausible = false;
   /// Plausible, or outside by at most half the range (a factor of two for `log_scale`): limits of
   /// plausibility are not sharp.
   bool near_plausible = true;
   double lower = 0.0, upper = 0.0;        ///< the range outside of which it lies
   std::string_view range_why = {};        ///< the reason for that range
-  const PlausibleLimit* limit = nullptr;  ///< the limit that it exceeds
+  const PlausibleLimit* limit = nullptr;  ///< the limit that it exceeds; null: only the range
   double quantity = 0.0;                  ///< the limited quantity at this value [1]
 
   bool plausible() const { return !implausible; }
@@ -54,20 +44,18 @@ enum class SetAside {
   batch_is_size,  ///< every series has its own diameter, and the offsets are a smooth function of
                   ///< it
   within_a_step,  ///< the error of a height may be due to rounding
-  leaves_structure,       ///< the residuals still show structure
-  predicts_no_better,     ///< it does not predict held-out sizes or targets better than the base
-  one_would_do,           ///< one mechanism of a pair would suffice
-  one_hardly_takes_part,  ///< one mechanism of a pair contributes little, and structure is left
-  at_the_edge,            ///< a parameter rests on a bound of its allowed range
-  far_behind  ///< a pair that was too far behind the best at a first look and was not followed
+  leaves_structure,    ///< the residuals still show structure
+  predicts_no_better,  ///< it does not predict held-out sizes or targets better than the base
+  one_suffices,        ///< one mechanism of a pair would suffice
+  second_adds_little,  ///< one mechanism of a pair contributes little, and structure is left
+  at_limit,            ///< a parameter rests on a bound of its allowed range
+  far_behind  ///< a pair that was too far behind the best at the screening and was not followed
 };
-template <>
-struct NamesOf<SetAside> {
-  static constexpr std::array<std::string_view, 12> names = {
-      "description",   "gains_too_little",      "chance",           "not_possible",
-      "batch_is_size", "within_a_step",         "leaves_structure", "predicts_no_better",
-      "one_would_do",  "one_hardly_takes_part", "at_the_edge",      "far_behind"};
-};
+constexpr auto names_of_values(SetAside) {
+  return name_list("description", "gains_too_little", "chance", "not_possible", "batch_is_size",
+                   "within_a_step", "leaves_structure", "predicts_no_better", "one_suffices",
+                   "second_adds_little", "at_limit", "far_behind");
+}
 
 /// One mechanism, or two at once, tested as an explanation.
 struct CandidateResult {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
@@ -295,7 +294,7 @@ bool impossible_fits_better(const CandidateResult& best, const CandidateResult& 
 bool pair_at_limit_fits_better(const CandidateResult& best,
                                const std::vector<CandidateResult>& pairs, double lead) {
   return std::ranges::any_of(pairs, [&](const CandidateResult& c) {
-    return c.set_aside == SetAside::at_the_edge && c.delta_aicc < best.delta_aicc - lead;
+    return c.set_aside == SetAside::at_limit && c.delta_aicc < best.delta_aicc - lead;
   });
 }
 
@@ -425,7 +424,7 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   return found;
 }
 
-/// Steps 1 to 4 on all points of `base`.
+/// Steps 1 to 5 on all points of `base`.
 Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
   const DiagnosisOptions& options = base.options;
   Diagnosis diagnosis;

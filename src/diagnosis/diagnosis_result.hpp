@@ -34,11 +34,9 @@ struct MisfitCell {
 std::vector<MisfitCell> misfit_map(const FitResult& fitted);
 
 enum class Verdict { adequate, cause_named, not_separable, unexplained };
-template <>
-struct NamesOf<Verdict> {
-  static constexpr std::array<std::string_view, 4> names = {"adequate", "cause_named",
-                                                            "not_separable", "unexplained"};
-};
+constexpr auto names_of_values(Verdict) {
+  return name_list("adequate", "cause_named", "not_separable", "unexplained");
+}
 
 /// The capture velocity of one diameter under both models.
 struct CaptureChange {

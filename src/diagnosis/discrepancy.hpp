@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "estimate/least_squares.hpp"
 #include "estimate/observations.hpp"

@@ -7,7 +7,6 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/statistics.hpp"
-#include "core/units.hpp"
 #include "diagnosis/law_errors.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"

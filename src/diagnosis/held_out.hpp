@@ -13,10 +13,7 @@ struct LawErrors;
 
 /// The quantity by which the points of a block belong together.
 enum class FoldKind { size, velocity, target };
-template <>
-struct NamesOf<FoldKind> {
-  static constexpr std::array<std::string_view, 3> names = {"size", "velocity", "target"};
-};
+constexpr auto names_of_values(FoldKind) { return name_list("size", "velocity", "target"); }
 
 /// A block of points that is predicted from the others.
 struct Fold {

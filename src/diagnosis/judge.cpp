@@ -62,15 +62,15 @@ double nearest_to_range(const ParameterSlot& slot, double value, double reach, d
 }
 
 /// Sets the plausibility of `parameter`, the one of slot `j`.
-void set_implausible(const Candidate& candidate, const Refit& refit, std::size_t j, double reach,
-                     FoundParameter& parameter) {
+void judge_plausibility(const Candidate& candidate, const Refit& refit, std::size_t j, double reach,
+                        FoundParameter& parameter) {
   const ParameterSlot& slot = candidate.model.slots[j];
   const AllowedValues allowed = allowed_values(candidate, refit.theta, j);
   const double value = nearest_to_range(slot, parameter.value, reach, allowed.lower, allowed.upper);
   if (value >= allowed.lower && value <= allowed.upper) return;
   const bool by_limit = value > allowed.upper ? allowed.upper_by_limit : allowed.lower_by_limit;
   const PlausibleLimit& limit = slot.parameter->limit;
-  parameter.implausible = by_limit ? Implausible::beyond_limit : Implausible::outside_range;
+  parameter.implausible = true;
   parameter.near_plausible =
       !(by_limit && limit.sharp) && is_near(slot, value, allowed.lower, allowed.upper);
   parameter.lower = allowed.lower;
@@ -191,7 +191,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.stated_by = slot.stated;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);
-    if (slot.free && !vanishes) set_implausible(candidate, refit, j, errors * sd[j], parameter);
+    if (slot.free && !vanishes) judge_plausibility(candidate, refit, j, errors * sd[j], parameter);
     found.push_back(std::move(parameter));
   }
   return found;

@@ -1,7 +1,5 @@
 #include "diagnosis/law_errors.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 

@@ -16,10 +16,7 @@ enum class ExperimentKind {
   points,    ///< more impacts, at another velocity and diameter
   condition  ///< more impacts under a changed condition, which removes one of the two causes
 };
-template <>
-struct NamesOf<ExperimentKind> {
-  static constexpr std::array<std::string_view, 2> names = {"points", "condition"};
-};
+constexpr auto names_of_values(ExperimentKind) { return name_list("points", "condition"); }
 
 /// An experiment that distinguishes two rivals.
 struct NextExperiment {

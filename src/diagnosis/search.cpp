@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/resumable.hpp"
+#include "core/kept_rows.hpp"
 #include "diagnosis/discrepancy.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"

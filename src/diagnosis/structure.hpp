@@ -16,11 +16,9 @@ using Samples = std::vector<std::vector<double>>;  ///< residuals of many data s
 
 /// A test of the residuals, see `StructureStatistics`.
 enum class StructureQuestion { scatter, size, trend, curvature, capture, runs, smooth };
-template <>
-struct NamesOf<StructureQuestion> {
-  static constexpr std::array<std::string_view, 7> names = {"scatter", "size", "trend", "curvature",
-                                                            "capture", "runs", "smooth"};
-};
+constexpr auto names_of_values(StructureQuestion) {
+  return name_list("scatter", "size", "trend", "curvature", "capture", "runs", "smooth");
+}
 
 /// The result of one test.
 struct StructureTest {

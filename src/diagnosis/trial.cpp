@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/json.hpp"
+#include "core/kept_rows.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "core/resumable.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/law_errors.hpp"
 #include "estimate/observation.hpp"
@@ -28,7 +28,7 @@ constexpr int tries_in_pairs = 2;
 constexpr double worth_releasing = 2.0;  // least gain of the criterion by released parameters
 // Least effect, in standard deviations of the most affected point.
 constexpr double least_effect = 0.01;
-// A pair is followed if its criterion at the first look is within `followed_within` of the best,
+// A pair is followed if its criterion at the screening is within `followed_within` of the best,
 // or within the fraction `followed_part` of the gain of the best.
 constexpr double followed_within = 30.0;
 constexpr double followed_part = 0.2;
@@ -273,7 +273,7 @@ const Mechanism& only_mechanism(const CandidateResult& single) {
 }
 
 /// Does a free parameter of an added mechanism rest on a bound? Exponents may.
-bool rests_on_the_edge(const CandidateResult& result) {
+bool rests_on_limit(const CandidateResult& result) {
   for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
     const ParameterSlot& slot = result.candidate.model.slots[j];
     // A released parameter may rest on a bound.
@@ -283,9 +283,9 @@ bool rests_on_the_edge(const CandidateResult& result) {
   return false;
 }
 
-/// The first look at a pair: no released parameters, and the errors of laws are applied only at the
+/// The screening of a pair: no released parameters, and the errors of laws are applied only at the
 /// end of descents without them.
-struct FirstLook {
+struct Screening {
   const CandidateResult* first = nullptr;
   const CandidateResult* second = nullptr;
   Candidate both{};
@@ -295,67 +295,70 @@ struct FirstLook {
   double delta_aicc = INFINITY;
 };
 
-std::vector<std::string> names_of(const FirstLook& look) {
-  return {look.first->candidate.added.front(), look.second->candidate.added.front()};
+std::vector<std::string> names_of(const Screening& screening) {
+  return {screening.first->candidate.added.front(), screening.second->candidate.added.front()};
 }
 
 /// Fits the pair by descents from the fits of either alone.
-void look_at(const SearchBase& base, FirstLook& look) {
+void screen(const SearchBase& base, Screening& screening) {
   const Observations& data = base.fitted.data;
-  if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
-  if (!can_be_seen(base, look.both)) return;
-  for (const CandidateResult* from : {look.first, look.second}) {
-    Refit refit =
-        refit_candidate(look.both, data, base.fitted.weights, start_from(*from, look.both), 1);
-    if (refit.usable && !(look.refit.usable && look.refit.chi2 <= refit.chi2)) {
-      look.refit = std::move(refit);
+  if (screening.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
+  if (!can_be_seen(base, screening.both)) return;
+  for (const CandidateResult* from : {screening.first, screening.second}) {
+    Refit refit = refit_candidate(screening.both, data, base.fitted.weights,
+                                  start_from(*from, screening.both), 1);
+    if (refit.usable && !(screening.refit.usable && screening.refit.chi2 <= refit.chi2)) {
+      screening.refit = std::move(refit);
     }
   }
-  look.delta_aicc = std::min(look.first->delta_aicc, look.second->delta_aicc);
-  const Refit seen = under_law_errors(look.both, data, base.fitted.weights, look.refit, base.laws);
+  screening.delta_aicc = std::min(screening.first->delta_aicc, screening.second->delta_aicc);
+  const Refit seen =
+      under_law_errors(screening.both, data, base.fitted.weights, screening.refit, base.laws);
   if (!seen.usable) return;
-  look.delta_aicc = std::min(
-      look.delta_aicc, corrected_criterion(data, seen, look.both.free_count) - base.criterion);
+  screening.delta_aicc =
+      std::min(screening.delta_aicc,
+               corrected_criterion(data, seen, screening.both.free_count) - base.criterion);
 }
 
-/// Reads the first look from the kept rows, or computes it.
-void kept_look(const SearchBase& base, std::size_t k, FirstLook& look) {
-  const std::vector<std::string> names = names_of(look);
-  look.both = make_candidate(base.spec, base.datasets, names, false, true);
+/// Reads the screening from the kept rows, or computes it.
+void kept_screening(const SearchBase& base, std::size_t k, Screening& screening) {
+  const std::vector<std::string> names = names_of(screening);
+  screening.both = make_candidate(base.spec, base.datasets, names, false, true);
   const auto make = [&] {
-    look_at(base, look);
-    return std::pair(look.refit, look.delta_aicc);
+    screen(base, screening);
+    return std::pair(screening.refit, screening.delta_aicc);
   };
   const auto write = [&](const auto& seen) {
     return Json::array({names, json_of(seen.first), row_json({seen.second})});
   };
   const auto read = [&](const Json& row) {
     require_names(row, names);
-    return std::pair(refit_of(row.at(1), look.both, base.fitted.data.points.size()),
+    return std::pair(refit_of(row.at(1), screening.both, base.fitted.data.points.size()),
                      row_numbers(row.at(2)).at(0));
   };
-  std::tie(look.refit, look.delta_aicc) = kept_or_made(
-      base.options.kept.get(), number_of(base.options, KeptPiece::look, k), make, write, read);
+  std::tie(screening.refit, screening.delta_aicc) = kept_or_made(
+      base.options.kept.get(), number_of(base.options, KeptPiece::screening, k), make, write, read);
 }
 
-/// The criterion up to which a pair is followed. A pair that is further behind at the first look
+/// The criterion up to which a pair is followed. A pair that is further behind at the screening
 /// does not become one of the best: of 460 pairs for wall1990-molybdenum and wall1990-silicon, the
 /// later steps improved none by more than a third of its change of the criterion, and none of the
 /// best ten by more than a twentieth.
-double worth_following(const std::vector<FirstLook>& looks) {
+double worth_following(const std::vector<Screening>& screenings) {
   double best = 0.0;
-  for (const FirstLook& look : looks) best = std::min(best, look.delta_aicc);
+  for (const Screening& screening : screenings) best = std::min(best, screening.delta_aicc);
   return best + std::max(followed_within, followed_part * -best);
 }
 
 /// The final result of a pair.
-CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
-  const CandidateResult& first = *look.first;
-  const CandidateResult& second = *look.second;
+CandidateResult try_both(const SearchBase& base, Screening screening, bool follow) {
+  const CandidateResult& first = *screening.first;
+  const CandidateResult& second = *screening.second;
   const Observations& data = base.fitted.data;
   const auto apply_laws = follow ? with_law_errors : under_law_errors;
-  Refit refit = apply_laws(look.both, data, base.fitted.weights, std::move(look.refit), base.laws);
-  CandidateResult result = examine(base, std::move(look.both), std::move(refit));
+  Refit refit =
+      apply_laws(screening.both, data, base.fitted.weights, std::move(screening.refit), base.laws);
+  CandidateResult result = examine(base, std::move(screening.both), std::move(refit));
   if (follow) try_released(base, result, tries_in_pairs);
   find_remaining_p(base, result);
   if (!follow) {
@@ -366,13 +369,13 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   const double better = std::min(first.delta_aicc, second.delta_aicc);
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
   if (possible && !(result.delta_aicc < better - base.options.margin_in_pairs)) {
-    result.set_aside = SetAside::one_would_do;
+    result.set_aside = SetAside::one_suffices;
   }
   const double better_part = std::min(first.remaining_part, second.remaining_part);
   if (result.remaining_p < tolerated_level && better_part - result.remaining_part < carried_part) {
-    result.set_aside = SetAside::one_hardly_takes_part;
+    result.set_aside = SetAside::second_adds_little;
   }
-  if (rests_on_the_edge(result)) result.set_aside = SetAside::at_the_edge;
+  if (rests_on_limit(result)) result.set_aside = SetAside::at_limit;
   return result;
 }
 
@@ -441,24 +444,24 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     if (only_mechanism(single).is_batch() && series_are_sizes(base.fitted.data)) continue;
     causes.push_back(&single);
   }
-  std::vector<FirstLook> looks;
+  std::vector<Screening> screenings;
   for (std::size_t a = 0; a < causes.size(); ++a) {
     for (std::size_t b = a + 1; b < causes.size(); ++b) {
       if (only_mechanism(*causes[a]).spreads() && only_mechanism(*causes[b]).spreads()) continue;
-      looks.push_back({causes[a], causes[b], {}, {}});
+      screenings.push_back({causes[a], causes[b], {}, {}});
     }
   }
-  Progress progress("pairs of causes", 2 * looks.size());
-  parallel_over(looks.size(), base.options.threads, [&](std::size_t k) {
-    kept_look(base, k, looks[k]);
+  Progress progress("pairs of causes", 2 * screenings.size());
+  parallel_over(screenings.size(), base.options.threads, [&](std::size_t k) {
+    kept_screening(base, k, screenings[k]);
     progress.advance();
   });
-  const double worth = worth_following(looks);
-  std::vector<CandidateResult> results(looks.size());
-  parallel_over(looks.size(), base.options.threads, [&](std::size_t k) {
-    const bool follow = looks[k].delta_aicc <= worth;
-    results[k] = kept_candidate(base, KeptPiece::pair, k, names_of(looks[k]),
-                                [&] { return try_both(base, std::move(looks[k]), follow); });
+  const double worth = worth_following(screenings);
+  std::vector<CandidateResult> results(screenings.size());
+  parallel_over(screenings.size(), base.options.threads, [&](std::size_t k) {
+    const bool follow = screenings[k].delta_aicc <= worth;
+    results[k] = kept_candidate(base, KeptPiece::pair, k, names_of(screenings[k]),
+                                [&] { return try_both(base, std::move(screenings[k]), follow); });
     progress.advance();
   });
   sort_by_criterion(results);

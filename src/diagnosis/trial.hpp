@@ -13,9 +13,9 @@ namespace recoil {
 /// The kinds of kept results besides the pieces of the calibration, whose numbers begin at
 /// `DiagnosisOptions::first_piece`.
 enum class KeptPiece {
-  single,  ///< a single mechanism of the catalogue
-  look,    ///< the first look at a pair
-  pair     ///< the final result of a pair
+  single,     ///< a single mechanism of the catalogue
+  screening,  ///< the screening of a pair
+  pair        ///< the final result of a pair
 };
 
 /// The number of piece `k` of its kind, distinct from those of the calibration.

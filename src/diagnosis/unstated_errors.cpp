@@ -11,11 +11,10 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "core/random.hpp"
 #include "core/units.hpp"
 #include "diagnosis/search.hpp"
-#include "estimate/residual.hpp"
 #include "estimate/input_errors.hpp"
+#include "estimate/residual.hpp"
 #include "estimate/setting_error.hpp"
 #include "estimate/shared_errors.hpp"
 

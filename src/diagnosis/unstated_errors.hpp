@@ -17,11 +17,10 @@ enum class UnstatedSource {
   height_readings,    ///< every height of a rebound has the same error [m]
   time_readings,      ///< every time of flight has the same error [s]
 };
-template <>
-struct NamesOf<UnstatedSource> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "velocity_errors", "larger_deviations", "shared_setting", "height_readings", "time_readings"};
-};
+constexpr auto names_of_values(UnstatedSource) {
+  return name_list("velocity_errors", "larger_deviations", "shared_setting", "height_readings",
+                   "time_readings");
+}
 
 /// Errors of the measurement beyond the stated ones that may explain the data instead of a cause.
 struct UnstatedErrors {

@@ -53,27 +53,30 @@ std::string p_value_text(double p) {
 
 std::string percent(double fraction) { return fmt::format("{:.4g} %", 100.0 * fraction); }
 
+Notation significant(int count) { return {number, count}; }
+Notation padded(int count) { return {digits, count}; }
+Notation fixed(int decimals) {
+  return {[](double value, int n) { return fmt::format("{:.{}f}", value, n); }, decimals};
+}
+Notation signed_fixed(int decimals) {
+  return {[](double value, int n) { return fmt::format("{:+.{}f}", value, n); }, decimals};
+}
+Notation scientific(int decimals) {
+  return {[](double value, int n) { return fmt::format("{:.{}e}", value, n); }, decimals};
+}
+Notation probability() {
+  return {[](double value, int) { return p_value_text(value); }};
+}
+Notation in_percent(Notation notation, const std::string& suffix) {
+  notation.scale = 100.0;
+  notation.suffix = suffix;
+  return notation;
+}
+
 std::string text_of(double value, const Notation& notation) {
-  const double written = value * notation.scale;
-  if (!std::isfinite(written)) return "n/a";
-  const auto text = [&] {
-    switch (notation.kind) {
-      case Notation::Kind::significant:
-        return number(written, notation.digits);
-      case Notation::Kind::padded:
-        return digits(written, notation.digits);
-      case Notation::Kind::fixed:
-        return fmt::format("{:.{}f}", written, notation.digits);
-      case Notation::Kind::signed_fixed:
-        return fmt::format("{:+.{}f}", written, notation.digits);
-      case Notation::Kind::scientific:
-        return fmt::format("{:.{}e}", written, notation.digits);
-      case Notation::Kind::probability:
-        return p_value_text(written);
-    }
-    return std::string();
-  };
-  return text() + notation.suffix;
+  const double scaled = value * notation.scale;
+  if (!std::isfinite(scaled)) return "n/a";
+  return notation.write(scaled, notation.digits) + notation.suffix;
 }
 
 std::string NumberRange::text() const {

@@ -30,24 +30,19 @@ std::string percent(double fraction);
 
 /// The format of a number.
 struct Notation {
-  enum class Kind { significant, padded, fixed, signed_fixed, scientific, probability };
-  Kind kind = Kind::significant;
+  std::string (*write)(double value, int digits) = number;
   int digits = 4;        ///< significant digits, or decimals
   double scale = 1.0;    ///< factor applied before formatting
   std::string suffix{};  ///< appended to the number: " %"
 };
 
-inline Notation significant(int digits) { return {Notation::Kind::significant, digits}; }
-inline Notation padded(int digits) { return {Notation::Kind::padded, digits}; }
-inline Notation fixed(int decimals) { return {Notation::Kind::fixed, decimals}; }
-inline Notation signed_fixed(int decimals) { return {Notation::Kind::signed_fixed, decimals}; }
-inline Notation scientific(int decimals) { return {Notation::Kind::scientific, decimals}; }
-inline Notation probability() { return {Notation::Kind::probability}; }
-inline Notation in_percent(Notation notation, const std::string& suffix = " %") {
-  notation.scale = 100.0;
-  notation.suffix = suffix;
-  return notation;
-}
+Notation significant(int digits);
+Notation padded(int digits);  ///< significant digits, including trailing zeros
+Notation fixed(int decimals);
+Notation signed_fixed(int decimals);
+Notation scientific(int decimals);
+Notation probability();
+Notation in_percent(Notation notation, const std::string& suffix = " %");
 
 /// `value` in this notation; "n/a" if it is not finite.
 std::string text_of(double value, const Notation& notation);

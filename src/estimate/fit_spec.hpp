@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,11 +41,9 @@ enum class Scheme {
 };
 
 /// The names in fit files, on the command line and in fit.json.
-template <>
-struct NamesOf<Scheme> {
-  static constexpr std::array<std::string_view, 6> names = {"auto", "parametric", "residual",
-                                                            "wild", "case",       "cluster"};
-};
+constexpr auto names_of_values(Scheme) {
+  return name_list("auto", "parametric", "residual", "wild", "case", "cluster");
+}
 
 /// What a fit file states about one parameter.
 struct ParameterSpec {

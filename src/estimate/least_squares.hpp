@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -39,11 +37,9 @@ enum class Strategy {
   gauss_newton,  ///< `gauss_newton_from`: few evaluations from a start near the minimum and away
                  ///< from the bounds; fails elsewhere
 };
-template <>
-struct NamesOf<Strategy> {
-  static constexpr std::array<std::string_view, 3> names = {"trust_region", "box_descent",
-                                                            "gauss_newton"};
-};
+constexpr auto names_of_values(Strategy) {
+  return name_list("trust_region", "box_descent", "gauss_newton");
+}
 
 struct LeastSquaresOptions {
   /// Tried in turn until one succeeds. The last is trust_region or box_descent.
@@ -71,11 +67,9 @@ enum class DescentEnd {
   limit,      ///< the iteration limit was reached
   no_answer,  ///< the residuals cannot be evaluated
 };
-template <>
-struct NamesOf<DescentEnd> {
-  static constexpr std::array<std::string_view, 5> names = {"minimum", "valley", "flat", "limit",
-                                                            "no_answer"};
-};
+constexpr auto names_of_values(DescentEnd) {
+  return name_list("minimum", "valley", "flat", "limit", "no_answer");
+}
 
 struct LeastSquaresResult {
   Strategy strategy = Strategy::trust_region;  ///< the strategy that succeeded

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -24,10 +22,7 @@ namespace recoil {
 /// the reference, or CVODES for all impacts.
 enum class Solver { fast, reference };
 
-template <>
-struct NamesOf<Solver> {
-  static constexpr std::array<std::string_view, 2> names = {"fast", "reference"};
-};
+constexpr auto names_of_values(Solver) { return name_list("fast", "reference"); }
 
 /// Numerical settings of the impact solver.
 struct SolverSettings {

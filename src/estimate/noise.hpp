@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -28,11 +26,9 @@ inline constexpr double nominal_sd = 0.02;
 /// and Weighting in Regression, chapter 3).
 enum class VarianceFunction { stated, constant, proportional, capture, steep };
 
-template <>
-struct NamesOf<VarianceFunction> {
-  static constexpr std::array<std::string_view, 5> names = {"stated", "constant", "proportional",
-                                                            "capture", "steep"};
-};
+constexpr auto names_of_values(VarianceFunction) {
+  return name_list("stated", "constant", "proportional", "capture", "steep");
+}
 
 /// The `[noise]` table of a fit file.
 struct NoiseSpec {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "estimate/fit.hpp"
@@ -18,11 +16,10 @@ enum class TwoPointStatus {
   too_few_points,
 };
 
-template <>
-struct NamesOf<TwoPointStatus> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "converged", "no_hertz_damping", "no_adhesion_damping", "not_converging", "too_few_points"};
-};
+constexpr auto names_of_values(TwoPointStatus) {
+  return name_list("converged", "no_hertz_damping", "no_adhesion_damping", "not_converging",
+                   "too_few_points");
+}
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
 /// C_H (with C_A = 0 at first), the point of the lowest gives C_A, and both steps repeat until the

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -23,11 +21,9 @@ enum class ImportFormat {
 };
 
 /// The names of the formats on the command line.
-template <>
-struct NamesOf<ImportFormat> {
-  static constexpr std::array<std::string_view, 5> names = {"webplotdigitizer", "heights",
-                                                            "intervals", "csv", "track"};
-};
+constexpr auto names_of_values(ImportFormat) {
+  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track");
+}
 
 /// The file to import and the information that it lacks, as on the command line. Values with units
 /// are words such as "4.9um"; errors are "2%" (of the value) or "0.5mm".

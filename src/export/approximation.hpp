@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "export/exported_impact.hpp"
 
 namespace recoil {
@@ -10,12 +8,6 @@ namespace recoil {
 enum class StockModel {
   constant_restitution,  ///< e at all velocities
   hertz_dashpot          ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
-};
-
-template <>
-struct NamesOf<StockModel> {
-  static constexpr std::array<std::string_view, 2> names = {"constant_restitution",
-                                                            "hertz_dashpot"};
 };
 
 /// The error of e(V) of an approximation over the range of velocities. A captured sphere has e = 0.

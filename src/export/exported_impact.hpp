@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -14,11 +12,9 @@ namespace recoil {
 /// Programs, or kinds of file, to which a fitted impact is exported.
 enum class ExportTarget { lammps, liggghts, yade, openfoam, fluent, table };
 
-template <>
-struct NamesOf<ExportTarget> {
-  static constexpr std::array<std::string_view, 6> names = {"lammps",   "liggghts", "yade",
-                                                            "openfoam", "fluent",   "table"};
-};
+constexpr auto names_of_values(ExportTarget) {
+  return name_list("lammps", "liggghts", "yade", "openfoam", "fluent", "table");
+}
 
 /// A sphere and the force between it and a flat, in SI units, which a program for particles can
 /// integrate. With the penetration n, a^2 = r n and S as in eq. 5,

@@ -4,6 +4,13 @@
 namespace recoil {
 namespace {
 
+// LIGGGHTS takes a Young's modulus from 5e6 to 1e9 Pa, and beyond either only when told so.
+constexpr double softest = 5e6;
+constexpr const char* soft_text =
+    "soft_particles yes               # allows a Young's modulus below 5e6 Pa";
+constexpr const char* hard_text =
+    "hard_particles yes               # allows a Young's modulus beyond 1e9 Pa";
+
 constexpr const char* liggghts_text = R"in(@HEADING@#
 # Run:  liggghts -in impact.liggghts -var V @V@       V: incident velocity [m/s]
 # It ends with "restitution E".
@@ -13,7 +20,7 @@ variable dt index @DT@               # time step [s]
 variable duration index @DURATION@   # [s]
 
 units si
-hard_particles yes               # allows a Young's modulus beyond 1e9 Pa
+@RANGE@
 atom_style granular
 atom_modify map array
 boundary f f f
@@ -53,6 +60,7 @@ print "restitution ${shown}"
 std::vector<WholeFile> liggghts_files(const ExportJob& job) {
   const ContactForce& f = job.force;
   constexpr double poisson = 0.25;
+  const double modulus = 1.5 * f.stiffness * (1.0 - poisson * poisson);
   const double side = rounded(8.0 * f.radius, 2);
   return {{"impact.liggghts",
            filled(liggghts_text, {{"HEADING", commented(job.heading, "# ")},
@@ -65,7 +73,8 @@ std::vector<WholeFile> liggghts_files(const ExportJob& job) {
                                   {"START", shortest(f.radius)},
                                   {"D", shortest(2.0 * f.radius)},
                                   {"RHO", shortest(f.density)},
-                                  {"E", shortest(1.5 * f.stiffness * (1.0 - poisson * poisson))},
+                                  {"RANGE", modulus < softest ? soft_text : hard_text},
+                                  {"E", shortest(modulus)},
                                   {"RESTITUTION", shortest(job.stock->value)}})}};
 }
 

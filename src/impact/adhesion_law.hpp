@@ -21,12 +21,11 @@ enum class AdhesionLaw {
 #undef RECOIL_ENUMERATOR
 };
 
-template <>
-struct NamesOf<AdhesionLaw> {
+constexpr auto names_of_values(AdhesionLaw) {
 #define RECOIL_NAME(name, Law) std::string_view(#name),
-  static constexpr std::array names = {RECOIL_ADHESION_LAWS(RECOIL_NAME)};
+  return std::array{RECOIL_ADHESION_LAWS(RECOIL_NAME)};
 #undef RECOIL_NAME
-};
+}
 
 /// The properties of a law that other code uses. The struct of the law has static members of these
 /// names.

@@ -94,7 +94,7 @@ void solve_batch(std::span<const ImpactGroups> groups, const ImpactOptions& opti
                  std::span<ImpactResult> results) {
   Order all, left;
   // StepSolver solves impacts with a dashpot, with a seam of the law (LawPath::seam), and with
-  // strong damping under a steep law: above 0.5 the slope in beta had errors of 1e-7 and more.
+  // strong damping under a steep law: there the slope in beta had errors of 1e-7 and more.
   constexpr bool by_phases = Law::places.back() != place_of_kappa;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const bool by_steps =

@@ -65,7 +65,7 @@ inline constexpr double settled_part = 1e-10;
 /// gamma) beta^(3/2) x' + beta^(1/2) (x - beta) = 0, where a dashpot adds kappa beta^(1/2) x').
 /// That this holds at every incident velocity was found by integration from V / V_a = 1e-3 to 1e4,
 /// and is not proved (tests/impact/outcome_test.cpp compares with the reference).
-inline bool creeps_into_the_well(const ImpactGroups& groups) {
+inline bool is_overdamped(const ImpactGroups& groups) {
   constexpr double critical_damping = 2.0;
   const double fourth_root = std::sqrt(std::sqrt(groups.beta));
   const double damping = (groups.alpha + groups.gamma) * groups.beta + groups.kappa;
@@ -173,7 +173,7 @@ struct RingAdhesionLaw : HertzRadius {
   }
   static bool admits(const ImpactGroups&) { return true; }
   static bool vanishes(const ImpactGroups&) { return false; }
-  static bool creeps(const ImpactGroups& g) { return creeps_into_the_well(g); }
+  static bool overdamped(const ImpactGroups& g) { return is_overdamped(g); }
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
 
   /// The four forces [m V^2 / n_c].

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -16,19 +15,14 @@ namespace recoil {
 /// `rebound` follows their text ("acts during the rebound phase").
 enum class AdhesionDampingPhase { rebound, both };
 
-template <>
-struct NamesOf<AdhesionDampingPhase> {
-  static constexpr std::array<std::string_view, 2> names = {"rebound", "both"};
-};
+constexpr auto names_of_values(AdhesionDampingPhase) { return name_list("rebound", "both"); }
 
 /// The outcome of an impact. The last two have no result.
 enum class ImpactOutcome { rebound, captured, integration_failure, step_limit };
 
-template <>
-struct NamesOf<ImpactOutcome> {
-  static constexpr std::array<std::string_view, 4> names = {"rebound", "captured",
-                                                            "integration failure", "step limit"};
-};
+constexpr auto names_of_values(ImpactOutcome) {
+  return name_list("rebound", "captured", "integration failure", "step limit");
+}
 
 /// The energy budget of an impact in units of m V^2; the incident energy is 1/2.
 struct EnergyBudget {
@@ -120,9 +114,6 @@ long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOpt
 
 /// The same for one impact, which takes longer per impact than many at once.
 ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOptions& options);
-
-/// The number of impacts that this process has solved by the reference instead of the fast solver.
-long reference_handovers();
 
 /// The contact at the deepest point of an undamped impact, under jkr, dmt or maugis.
 struct DeepestContact {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 
@@ -12,11 +11,9 @@ namespace recoil {
 
 namespace {
 
-std::atomic<long> handovers{0};
-
 /// True if the kernel gives the digits of `baseline` for a rebound, a capture and a strongly damped
 /// impact. This guards against errors of compilers with wide registers.
-bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
+bool agrees_with(const FastKernel& baseline, const FastKernel& kernel) {
   std::array<ImpactGroups, 3> impacts = {ImpactGroups{0.01, 0.1, 0.4, 0.0, 0.4},
                                          ImpactGroups{0.02, 3.0, 0.02, 0.0, 2.0},
                                          ImpactGroups{2.0, 0.4, 1.5, 0.0, 20.0}};
@@ -48,7 +45,7 @@ bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
 /// proportional to beta^(5/2). Returns false for any other sphere.
 template <class Law>
 bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
-  if (!Law::creeps(groups)) return false;
+  if (!Law::overdamped(groups)) return false;
   result.outcome = ImpactOutcome::captured;
   result.restitution_squared = 2.0 * Law::depth(groups);
   result.gradient[1] = 2.5 * result.restitution_squared / groups.beta;
@@ -56,8 +53,8 @@ bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
 }
 
 /// Sets `result` and returns true if it is known without integration.
-bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
-                    ImpactResult& result) {
+bool closed_form_result(const ImpactGroups& groups, const ImpactOptions& options,
+                        ImpactResult& result) {
   if (!is_admissible(groups, options)) {
     result.outcome = ImpactOutcome::integration_failure;
     return true;
@@ -80,7 +77,6 @@ long simulate_run(std::span<const ImpactGroups> groups, const ImpactOptions& opt
     ++handed_over;
     results[i] = simulate_impact(groups[i], options);
   }
-  handovers += handed_over;
   return handed_over;
 }
 
@@ -100,9 +96,8 @@ const std::vector<FastKernel>& fast_kernels() {
 #endif
     list.push_back({"baseline", baseline::lanes(), baseline::simulate});
     const FastKernel baseline_kernel = list.back();
-    std::erase_if(list, [&](const FastKernel& kernel) {
-      return !gives_the_digits_of(baseline_kernel, kernel);
-    });
+    std::erase_if(list,
+                  [&](const FastKernel& kernel) { return !agrees_with(baseline_kernel, kernel); });
     return list;
   }();
   return kernels;
@@ -117,7 +112,7 @@ long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOpt
   for (std::size_t i = 0; i <= groups.size(); ++i) {
     if (i < groups.size()) {
       results[i] = ImpactResult{};
-      if (!answer_at_once(groups[i], options, results[i])) continue;
+      if (!closed_form_result(groups[i], options, results[i])) continue;
     }
     if (i > begin)
       handed_over += simulate_run(groups.subspan(begin, i - begin), options,
@@ -132,7 +127,5 @@ ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOption
   simulate_impacts_fast({&groups, 1}, options, {&result, 1});
   return result;
 }
-
-long reference_handovers() { return handovers; }
 
 }  // namespace recoil

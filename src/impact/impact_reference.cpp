@@ -23,8 +23,6 @@ constexpr double longest_arc = 1e9;  // "until an event": no impact is this long
 // (`cusp_radius` of the law), and its sign decides between rebound and capture.
 constexpr double undecided_energy = 1e-15;
 
-enum class Stage { compression, restitution };
-
 /// The data of an integration under `Law`.
 template <class Law>
 struct Field {
@@ -33,12 +31,10 @@ struct Field {
   LawPath path;
   AdhesionDampingPhase phase;
   double cusp_radius_squared;
-  Stage stage = Stage::compression;
+  bool rebounding = false;  ///< beyond the inner turning point
 
   /// 1 if the adhesion damping acts, else 0.
-  double acts() const {
-    return phase == AdhesionDampingPhase::both || stage == Stage::restitution ? 1.0 : 0.0;
-  }
+  double acts() const { return phase == AdhesionDampingPhase::both || rebounding ? 1.0 : 0.0; }
 };
 
 template <class Law>
@@ -191,7 +187,7 @@ class Integration {
   /// Begins the restitution at the inner turning point: the adhesion damping is switched on, which
   /// is continuous at u = 0, and the events become those of the restitution.
   bool turn() {
-    field_.stage = Stage::restitution;
+    field_.rebounding = true;
     return restart(1, 0.0);
   }
 
@@ -199,7 +195,7 @@ class Integration {
   bool at_seam() const {
     std::array<int, 4> found = {};
     CVodeGetRootInfo(memory_.get(), found.data());
-    const bool first = field_.stage == Stage::compression;
+    const bool first = !field_.rebounding;
     return field_.path.seam && found[first ? 1 : 3] != 0 && found[0] == 0 &&
            (first || (found[1] == 0 && found[2] == 0));
   }
@@ -253,7 +249,7 @@ class Integration {
  private:
   bool look_for_events() {
     void* memory = memory_.get();
-    if (field_.stage == Stage::compression) {
+    if (!field_.rebounding) {
       std::array<int, 2> directions = {-1, 0};
       return CVodeRootInit(memory, 2, turning_event<Law>) == CV_SUCCESS &&
              CVodeSetRootDirection(memory, directions.data()) == CV_SUCCESS;

@@ -96,7 +96,7 @@ struct JkrLaw {
   static bool vanishes(const ImpactGroups& g) { return g.beta < 1e-14; }
   /// True if small motions about the bottom of the well are overdamped: n'' = -(9/10) b^(2/3) (n -
   /// n_0) - (alpha + gamma) b^2 n', b = beta^(3/4). Not known with a dashpot.
-  static bool creeps(const ImpactGroups& g) {
+  static bool overdamped(const ImpactGroups& g) {
     const double fourth_root = std::sqrt(std::sqrt(g.beta));
     return g.kappa == 0.0 && (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
   }

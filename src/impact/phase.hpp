@@ -95,7 +95,7 @@ struct Phase {
   Pack lowest = 1e300;   ///< smallest u^2 / 2
   Pack defect;           ///< of the rates
   Pack sweeps = 0.0;
-  Mask settled{false};
+  Mask converged{false};
 
   explicit Phase(const PhaseRule& of) : rule(of) {}
 
@@ -130,22 +130,22 @@ struct Phase {
   }
 
   /// Sweeps over the blocks, each with the new losses of earlier blocks, until the losses change by
-  /// less than `settle_below` [m V^2]. Settled lanes keep their values.
-  /// @param arrive_below tolerance of the energy at the end [m V^2]
+  /// less than `tolerance` [m V^2]. Converged lanes keep their values.
+  /// @param end_tolerance tolerance of the energy at the end [m V^2]
   /// @param place_again places the nodes for the present ends
   /// @param missing the error of the energy at the end for a loss
   /// @param move moves the ends of the lanes of a mask to reduce this error; returns true if any
   ///   moved
   template <bool compression, class PlaceAgain, class Missing, class Move>
-  [[gnu::always_inline]] void settle(double settle_below, double arrive_below,
-                                     const PlaceAgain& place_again, const Missing& missing,
-                                     const Move& move) {
+  [[gnu::always_inline]] void converge(double tolerance, double end_tolerance,
+                                       const PlaceAgain& place_again, const Missing& missing,
+                                       const Move& move) {
     constexpr int most_sweeps = 14;
     place_again();
     for (std::size_t i = 0; i < rule.count; ++i) start<compression>(i);
     Pack last_change = 0.0;
-    for (int sweep = 0; sweep < most_sweeps && !all_of(settled); ++sweep) {
-      const Mask moving = !settled;
+    for (int sweep = 0; sweep < most_sweeps && !all_of(converged); ++sweep) {
+      const Mask moving = !converged;
       Pack change = 0.0;
       for (std::size_t first = 0; first < rule.count; first += phase_block) {
         const auto next = next_losses<compression>(first);
@@ -160,11 +160,11 @@ struct Phase {
       where(moving, sweeps) += 1.0;
       // The sum of further changes in a geometric series is change^2 / (last_change - change).
       const Mask close =
-          change < 0.1 * settle_below ||
-          (change < 1e3 * settle_below && change * change < settle_below * (last_change - change));
+          change < 0.1 * tolerance ||
+          (change < 1e3 * tolerance && change * change < tolerance * (last_change - change));
       last_change = change;
-      const Mask arrived = left_over < arrive_below;
-      settled = settled || (close && arrived);
+      const Mask arrived = left_over < end_tolerance;
+      converged = converged || (close && arrived);
       const Mask goes = moving && !arrived;
       if (move(goes, next_loss)) {
         place_again();

@@ -132,12 +132,11 @@ GaussRule::Row GaussRule::integral_up_to(double s, const std::vector<Series>& va
   return row;
 }
 
-PhaseRule::PhaseRule(std::size_t nodes, PhaseEnd end) : count(nodes) {
+PhaseRule::PhaseRule(std::size_t nodes, bool both_ends_turn) : count(nodes) {
   const GaussRule gauss(count);
   const GaussRule coarse(few);
-  const bool both = end == PhaseEnd::outer_turning_point;
-  const auto functions = gauss.vanishing(both);
-  const auto coarse_functions = coarse.vanishing(both);
+  const auto functions = gauss.vanishing(both_ends_turn);
+  const auto coarse_functions = coarse.vanishing(both_ends_turn);
   const auto put = [](const GaussRule::Row& row, double* to) {
     std::copy(row.begin(), row.end(), to);
   };
@@ -146,7 +145,7 @@ PhaseRule::PhaseRule(std::size_t nodes, PhaseEnd end) : count(nodes) {
   put(gauss.last_but_one, last_but_one);
   for (std::size_t i = 0; i < count; ++i) {
     const double s = gauss.node[i];
-    if (both) {
+    if (both_ends_turn) {
       const double sine = sine_of_quarters(s);
       part[i] = sine * sine;
       rate[i] = std::numbers::pi * sine * sine_of_quarters(1.0 - s);

@@ -33,13 +33,10 @@ struct GaussRule {
   Row integral_up_to(double s, const std::vector<Series>& vanishing) const;
 };
 
-/// How the second phase of an impact ends.
-enum class PhaseEnd { release, outer_turning_point };
-
 /// The nodes of a phase: part[i] is the fraction of the distance in q from the inner turning point
 /// to the other end at node i, and rate[i] its derivative in s. u vanishes like the square root of
-/// this distance. The fraction is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u vanishes at both
-/// ends, so that u is smooth in s.
+/// this distance. The fraction is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if the other end is a
+/// turning point, too, so that u is smooth in s.
 ///
 /// The members are plain arrays, because the kernels of fast_kernel.cpp must not share inline
 /// functions.
@@ -56,16 +53,16 @@ struct PhaseRule {
   /// The same from values at the nodes of the rule with `few` of them.
   double from_few[most][few] = {};
 
-  PhaseRule(std::size_t nodes, PhaseEnd end);
+  PhaseRule(std::size_t nodes, bool both_ends_turn);
 };
 
 /// The rules that the fast solver uses.
 struct PhaseRules {
-  PhaseRule coarse{PhaseRule::few, PhaseEnd::release};
-  PhaseRule coarse_capture{PhaseRule::few, PhaseEnd::outer_turning_point};
-  PhaseRule smooth{16, PhaseEnd::release};
-  PhaseRule fine{PhaseRule::most, PhaseEnd::release};
-  PhaseRule fine_capture{PhaseRule::most, PhaseEnd::outer_turning_point};
+  PhaseRule coarse{PhaseRule::few, false};
+  PhaseRule coarse_capture{PhaseRule::few, true};
+  PhaseRule smooth{16, false};
+  PhaseRule fine{PhaseRule::most, false};
+  PhaseRule fine_capture{PhaseRule::most, true};
 };
 const PhaseRules& phase_rules();
 

@@ -41,7 +41,7 @@ class PhaseSolver {
       : rules_(phase_rules()),
         gradient_(options.gradient),
         acts_at_first_(options.phase == AdhesionDampingPhase::both ? 1.0 : 0.0),
-        settled_change_(3.0 * options.fast_tolerance) {}
+        tolerance_(3.0 * options.fast_tolerance) {}
 
   /// Solves the impacts impacts[order[0]], impacts[order[1]], ... with the coarse rule.
   /// @pre 1 to `lanes` of them
@@ -63,7 +63,7 @@ class PhaseSolver {
     go_deeper(Mask(true), in.held());
     end_ = release_;
     out.start_without_losses();
-    restore(PhaseEnd::release, out, coarse_change);
+    restore(false, out, coarse_change);
     const auto left = lanes_of(Pack(law_.potential(deepest_) - out.loss - law_.potential(end_)));
     const auto defect = lanes_of(out.defect), sweeps = lanes_of(Pack(in.sweeps + out.sweeps));
     const auto deepest = lanes_of(deepest_);
@@ -101,18 +101,18 @@ class PhaseSolver {
     Phase<Pack> in(need == PhaseNeed::smooth ? rules_.smooth : rules_.fine);
     Phase<Pack> out(capture ? rules_.fine_capture : in.rule);
     in.start_from(rates_in);
-    compress(in, settled_change_, settled_change_);
+    compress(in, tolerance_, tolerance_);
     if (capture) {
       restore_captured(out);
     } else {
       end_ = release_;
       out.start_from(rates_out);
-      restore(PhaseEnd::release, out, settled_change_);
+      restore(false, out, tolerance_);
     }
     follow_both(in, out);
     const Pack energy = law_.potential(deepest_) - out.loss - all_ * missing_;
     const Pack defect = in.defect + out.defect;
-    Mask good = in.settled && out.settled && deepest_ > resting_ && in.lowest > 0.0 &&
+    Mask good = in.converged && out.converged && deepest_ > resting_ && in.lowest > 0.0 &&
                 out.lowest > 0.0 && held_ < most_held;
     good = good && defect < most_defect && defect * held_defect_ < most_e2_error;
     good = good && abs(energy) > nearest * (0.5 - law_.potential(resting_));
@@ -145,10 +145,10 @@ class PhaseSolver {
   }
 
   /// From first contact to the deepest point.
-  [[gnu::flatten]] void compress(Phase<Pack>& phase, double settle_below, double arrive_below) {
+  [[gnu::flatten]] void compress(Phase<Pack>& phase, double tolerance, double end_tolerance) {
     // The result is corrected for the missing energy.
-    phase.template settle<true>(
-        settle_below, arrive_below,
+    phase.template converge<true>(
+        tolerance, end_tolerance,
         [&] {
           bottom_ = law_.potential(deepest_);
           phase.place_nodes(law_, deepest_, start_, acts_at_first_, bottom_);
@@ -175,7 +175,7 @@ class PhaseSolver {
     guess_outer_turning_point();
     Phase<Pack> coarse(rules_.coarse_capture);
     coarse.start_without_losses();
-    restore(PhaseEnd::outer_turning_point, coarse, coarse_change);
+    restore(true, coarse, coarse_change);
     CoarseNodes rates;
     for (std::size_t i = 0; i < PhaseRule::few; ++i) rates[i] = coarse.rates[i];
     phase.start_from(rates);
@@ -183,14 +183,13 @@ class PhaseSolver {
     // If u vanishes at both ends, convergence becomes slower. With the tolerance of a rebound, 17
     // of 1053 captures had errors of 3e-8 and more in a derivative; with this tolerance none had
     // 2e-9.
-    restore(PhaseEnd::outer_turning_point, phase, 0.03 * settled_change_);
+    restore(true, phase, 0.03 * tolerance_);
   }
-  /// From the deepest point to `end_`, which is moved if it is a turning point.
-  [[gnu::flatten]] void restore(PhaseEnd end, Phase<Pack>& phase, double settle_below) {
+  /// From the deepest point to `end_`, which is moved if it `turns`: if it is a turning point.
+  [[gnu::flatten]] void restore(bool turns, Phase<Pack>& phase, double tolerance) {
     const Pack bottom = law_.potential(deepest_);
-    const bool turns = end == PhaseEnd::outer_turning_point;
-    phase.template settle<false>(
-        settle_below, turns ? 0.1 * settle_below : settle_below,
+    phase.template converge<false>(
+        tolerance, turns ? 0.1 * tolerance : tolerance,
         [&] { phase.place_nodes(law_, deepest_, end_, Pack(1.0), bottom); },
         [&](const Pack& loss) {
           return turns ? Pack(law_.potential(end_) - (bottom - loss)) : Pack(0.0);
@@ -369,7 +368,7 @@ class PhaseSolver {
   const PhaseRules& rules_;
   bool gradient_;
   Pack acts_at_first_;
-  double settled_change_;
+  double tolerance_;
   LawLanes<Law, Pack> law_;
   Pack start_ = 0.0, start_slope_ = 0.0, release_ = 0.0, resting_ = 0.0;
   Pack deepest_ = 0.0, end_ = 0.0;    // q of the turning point and of the end

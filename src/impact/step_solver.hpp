@@ -95,10 +95,10 @@ class StepSolver {
   /// One Runge-Kutta step of every lane. The independent variable is the arc length, or u or q in
   /// an event step.
   [[gnu::flatten]] Step make_step() const {
-    const bool some_land = any_of(landing_);
+    const bool some_events = any_of(event_step_);
     const Pack length =
-        some_land
-            ? select(landing_, fraction_ * select(to_turning_, -u_, landing_place() - q_), length_)
+        some_events
+            ? select(event_step_, fraction_ * select(to_turning_, -u_, event_place() - q_), length_)
             : length_;
     std::array<Pack, dop853::stages> rate_q, rate_u, rate_mu;
     Step to;
@@ -114,10 +114,10 @@ class StepSolver {
       }
       const auto f = field(q, u);
       Pack per_clock = 1.0;
-      if (some_land) {
-        per_clock = 1.0 / select(landing_, select(to_turning_, f.value, u), Pack(1.0));
+      if (some_events) {
+        per_clock = 1.0 / select(event_step_, select(to_turning_, f.value, u), Pack(1.0));
       }
-      const auto on_clock = [&](const Pack& rate) { return some_land ? rate * per_clock : rate; };
+      const auto on_clock = [&](const Pack& rate) { return some_events ? rate * per_clock : rate; };
       rate_q[i] = on_clock(u);
       rate_u[i] = on_clock(f.value);
       if constexpr (with_gradient) rate_mu[i] = on_clock(-(f.template derivative<0>() * mu));
@@ -184,7 +184,7 @@ class StepSolver {
     const Mask good = to.error <= 1.0;  // false for NaN
     const Mask event = turned_ && (to.q <= release_ || to.u >= 0.0);
     const Mask seam = crosses_seam(to.q);
-    const Mask crosses = good && !landing_ && (seam || event || (!turned_ && to.u <= 0.0));
+    const Mask crosses = good && !event_step_ && (seam || event || (!turned_ && to.u <= 0.0));
     const Mask accepted = good && !crosses;
     where(crosses, to_turning_) = !(seam || (turned_ && to.q <= release_));
     if constexpr (is_long) where(crosses, to_seam_) = seam;
@@ -194,28 +194,28 @@ class StepSolver {
       where(accepted, mu_) = to.mu;
       for (unsigned p = 0; p < parameters; ++p) where(accepted, areas_[p]) += to.areas[p];
     }
-    const Mask landed = landing_ && good && fraction_ == 1.0;
-    where(landed && to_turning_, u_) = 0.0;
-    where(landed && !to_turning_, q_) = landing_place();
+    const Mask arrived = event_step_ && good && fraction_ == 1.0;
+    where(arrived && to_turning_, u_) = 0.0;
+    where(arrived && !to_turning_, q_) = event_place();
     adapt(to.error, good, crosses);
-    landing_ = (landing_ || crosses) && !landed;
-    Mask at_end = landed;
+    event_step_ = (event_step_ || crosses) && !arrived;
+    Mask at_end = arrived;
     if constexpr (is_long) {
       Pack& side = law_.constants.back();
-      where(landed && to_seam_, side) = 1.0 - side;
-      at_end = landed && !to_seam_;
-      where(landed, to_seam_) = false;
+      where(arrived && to_seam_, side) = 1.0 - side;
+      at_end = arrived && !to_seam_;
+      where(arrived, to_seam_) = false;
     }
     ended_ = at_end && turned_;
     const Mask turns = at_end && !turned_;
     turned_ = turned_ || turns;
     where(turns, acts_) = 1.0;
-    settled_ = turned_ && !landing_ && !ended_ && energy(q_, u_) < settle_below_;
+    settled_ = turned_ && !event_step_ && !ended_ && energy(q_, u_) < settle_below_;
     lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
   }
 
   /// The q of an event that is no turning point.
-  Pack landing_place() const {
+  Pack event_place() const {
     if constexpr (is_long) {
       return select(to_seam_, Pack(0.0), release_);
     } else {
@@ -240,11 +240,11 @@ class StepSolver {
     factor = min(Pack(most_growing), max(Pack(most_shrinking), factor));
     where(!good, factor) = min(Pack(after_failure), factor);
     where(!(error == error), factor) = most_shrinking;
-    where(!landing_ && !crosses, length_) *= factor;
+    where(!event_step_ && !crosses, length_) *= factor;
     // After an accepted part, 1 - fraction_ of the distance to the event remains.
     constexpr double never_zero = 1e-300;
     const Pack covered = min(Pack(1.0), fraction_ / (1.0 - fraction_ + never_zero) * factor);
-    where(landing_, fraction_) = select(good, covered, fraction_ * factor);
+    where(event_step_, fraction_) = select(good, covered, fraction_ * factor);
     where(crosses, fraction_) = 1.0;
   }
 
@@ -319,7 +319,7 @@ class StepSolver {
     if constexpr (with_gradient && Law::constants > 0) {
       areas_[group_of_range<Law>][lane] = -field(q_, u_).value[lane] * path.range_slope;
     }
-    turned_[lane] = landing_[lane] = to_turning_[lane] = false;
+    turned_[lane] = event_step_[lane] = to_turning_[lane] = false;
     ended_[lane] = settled_[lane] = lost_[lane] = false;
   }
 
@@ -342,7 +342,7 @@ class StepSolver {
   Pack resting_q_ = 0.0, settle_below_ = 0.0;
   Mask busy_{false};
   Mask turned_{false};      // past the inner turning point
-  Mask landing_{false};     // the next step is an event step
+  Mask event_step_{false};  // the next step is an event step
   Mask seam_{false};        // the law differs for q < 0
   Mask to_seam_{false};     // the event is the seam at q = 0
   Mask to_turning_{false};  // the event is a turning point, otherwise a release or seam

@@ -8,8 +8,8 @@ struct AdhesionHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const T work = own[0] * e.adhesion_energy;
-    e.lose(e.at->adhesion == AdhesionLaw::ring ? opening_energy(e, work, T(0.0))
-                                               : std::numbers::pi * work * e.contact_square());
+    e.dissipate(e.at->adhesion == AdhesionLaw::ring ? opening_energy(e, work, T(0.0))
+                                                    : std::numbers::pi * work * e.contact_square());
   }
 };
 

@@ -8,7 +8,7 @@ constexpr double polished = 1e-9;  // [m]
 struct AsperityLoss {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.lose(own[0]);
+    e.dissipate(own[0]);
   }
 };
 

@@ -24,7 +24,7 @@ constexpr double no_bridge_below = 100.0;  // [Pa]
 struct Capillary {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.lose(4.0 * std::numbers::pi * water_surface_tension * e.radius() * own[0]);
+    e.dissipate(4.0 * std::numbers::pi * water_surface_tension * e.radius() * own[0]);
   }
 };
 

@@ -113,8 +113,8 @@ struct CrackRate {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const T work = own[0] * e.adhesion_energy;
-    e.lose(e.at->adhesion == AdhesionLaw::jkr ? opening_under_jkr(e, work, own[1])
-                                              : opening_energy(e, work, own[1]));
+    e.dissipate(e.at->adhesion == AdhesionLaw::jkr ? opening_under_jkr(e, work, own[1])
+                                                   : opening_energy(e, work, own[1]));
   }
 };
 

@@ -14,7 +14,7 @@ struct ElasticWaves {
     // F = (m V^2 / n_c) x^(3/2), t = (n_c / V) tau
     const T scale = e.scale();
     const T force = e.mass() * e.velocity * e.velocity / scale;
-    e.lose(own[0] * e.wave_mobility * force_rate_squared * force * force * e.velocity / scale);
+    e.dissipate(own[0] * e.wave_mobility * force_rate_squared * force * force * e.velocity / scale);
   }
 };
 

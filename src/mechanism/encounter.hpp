@@ -177,7 +177,7 @@ struct Encounter {
     return root * adhesion_force * (4.0 * std::numbers::pi) - n * root * (stiffness * 2.0);
   }
   /// Takes `energy` [J] from the sphere.
-  void lose(const T& energy) { square -= 2.0 * energy / mass(); }
+  void dissipate(const T& energy) { square -= 2.0 * energy / mass(); }
 
  private:
   /// A quantity at the deepest point under another law than the ring law, with its derivatives.

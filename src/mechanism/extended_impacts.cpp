@@ -116,7 +116,7 @@ T base_square(const Groups<T>& groups, const ImpactResult& impact) {
 
 /// Calls act(mechanism, its parameters) for every mechanism of the chain, from the outside in.
 template <class T, class Act>
-void along(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
+void for_each_in_chain(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
   std::size_t first = 0;
   for (const Mechanism* mechanism : chain) {
     const std::size_t count = mechanism->info.parameters.size();
@@ -141,7 +141,7 @@ void approach(std::span<const Mechanism* const> chain, std::span<const T> own, s
               std::size_t nodes, Encounter<T>& e) {
   std::size_t rest = node;
   std::size_t stride = nodes;
-  along<T>(chain, own, [&](const Mechanism& mechanism, std::span<const T> its) {
+  for_each_in_chain<T>(chain, own, [&](const Mechanism& mechanism, std::span<const T> its) {
     const MechanismLaw<T>& law = mechanism.law<T>();
     if (law.vary != nullptr) {
       stride /= spread_nodes;
@@ -274,7 +274,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       }
     }
     Observed<T> observed{work.squares.front(), work.encounters[i * nodes_].measured_velocity};
-    along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
+    for_each_in_chain<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
       const MechanismLaw<T>& law = mechanism.law<T>();
       if (law.observe != nullptr) law.observe(observed, its);
     });
@@ -316,13 +316,14 @@ WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
   const std::span<const double> own = values.subspan(base_directions - 2);
   Encounter<double> e = approaching<double>(point, values, point.velocity, point.diameter);
   WholeImpactEnergy energy;
-  along<double>(chain, own, [&](const Mechanism& mechanism, std::span<const double> its) {
-    const MechanismLaw<double>& law = mechanism.law<double>();
-    if (law.vary != nullptr) law.vary(e, its, 0.0);
-    const double before = e.velocity * e.velocity + e.square;
-    if (law.before != nullptr) law.before(e, its);
-    energy.in.push_back(before - e.velocity * e.velocity - e.square);
-  });
+  for_each_in_chain<double>(chain, own,
+                            [&](const Mechanism& mechanism, std::span<const double> its) {
+                              const MechanismLaw<double>& law = mechanism.law<double>();
+                              if (law.vary != nullptr) law.vary(e, its, 0.0);
+                              const double before = e.velocity * e.velocity + e.square;
+                              if (law.before != nullptr) law.before(e, its);
+                              energy.in.push_back(before - e.velocity * e.velocity - e.square);
+                            });
   const double returned = base_square(groups_at_contact(e), impact) * e.velocity * e.velocity;
   energy.contact = e.velocity * e.velocity - returned;
   e.square += returned;

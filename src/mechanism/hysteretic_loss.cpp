@@ -7,7 +7,7 @@ struct HystereticLoss {
   /// Loses a share of the elastic energy at the deepest point, which is m V^2 / 2 without adhesion.
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.lose(own[0] * e.stored_energy());
+    e.dissipate(own[0] * e.stored_energy());
   }
 };
 

@@ -17,8 +17,8 @@ struct JkrHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const T work = own[0] * e.adhesion_energy;
-    e.lose(parting_work * power(e.reduced_modulus(), -2.0 / 3.0) * power(work, 5.0 / 3.0) *
-           power(e.contact_radius, 4.0 / 3.0));
+    e.dissipate(parting_work * power(e.reduced_modulus(), -2.0 / 3.0) * power(work, 5.0 / 3.0) *
+                power(e.contact_radius, 4.0 / 3.0));
   }
 };
 

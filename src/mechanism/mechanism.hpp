@@ -19,11 +19,9 @@ namespace recoil {
 /// is never named as a cause.
 enum class MechanismKind { physics, measurement, description };
 
-template <>
-struct NamesOf<MechanismKind> {
-  static constexpr std::array<std::string_view, 3> names = {"physics", "measurement",
-                                                            "description"};
-};
+constexpr auto names_of_values(MechanismKind) {
+  return name_list("physics", "measurement", "description");
+}
 
 /// The place on the way of a sphere where a mechanism acts, from the outside in. On the way in,
 /// mechanisms act in this order, on the way out in the reverse order, and those at one place in the

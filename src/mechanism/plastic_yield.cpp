@@ -63,9 +63,10 @@ struct PlasticYield {
     // A sphere that does not come back to zero approach is captured. Its base impact is so slow
     // that it does not matter.
     const T least = least_recovered * speed;
-    const T enters = value_of(back) < value_of(least) ? least * least / (2.0 * least - back) : back;
-    e.square += back - enters;
-    e.velocity = sqrt(enters);
+    const T entering =
+        value_of(back) < value_of(least) ? least * least / (2.0 * least - back) : back;
+    e.square += back - entering;
+    e.velocity = sqrt(entering);
     e.contact_radius *= flatness;
     e.adhesion_force *= power(flatness, 1.0 / 3.0);
   }

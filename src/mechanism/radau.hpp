@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "mechanism/dual.hpp"
 

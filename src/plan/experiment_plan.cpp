@@ -315,7 +315,6 @@ class Planner {
     for (const PlannedSize& size : sizes_) {
       if (!size.capture.found) continue;
       PlannedQuantity quantity;
-      quantity.kind = PlannedKind::capture_velocity;
       quantity.unit = "m/s";
       quantity.dataset = size.dataset;
       quantity.diameter = size.diameter;
@@ -336,7 +335,7 @@ class Planner {
     std::vector<std::string> lost;
     for (Eigen::Index q = 0; q < variances.size(); ++q) {
       const PlannedQuantity& quantity = plan_.quantities[static_cast<std::size_t>(q)];
-      if (!(variances(q) < 1.0) && quantity.kind == PlannedKind::parameter) {
+      if (!(variances(q) < 1.0) && quantity.is_parameter()) {
         lost.push_back(quantity.label);
       }
     }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/model.hpp"
@@ -40,13 +39,6 @@ struct PlannedSetting {
   double captured = 0.0;  ///< expected captured share of the impacts [1]
 };
 
-/// The kind of a quantity that an experiment determines.
-enum class PlannedKind { parameter, capture_velocity };
-template <>
-struct NamesOf<PlannedKind> {
-  static constexpr std::array<std::string_view, 2> names = {"parameter", "capture_velocity"};
-};
-
 /// A part of the best experiment for a single quantity.
 struct LearntAt {
   std::size_t dataset = 0;
@@ -55,12 +47,12 @@ struct LearntAt {
   double share = 0.0;     ///< share of the impacts of that experiment [1]
 };
 
+/// A parameter, or the capture velocity of one diameter.
 struct PlannedQuantity {
-  PlannedKind kind = PlannedKind::parameter;
-  std::string label;  ///< name of a parameter
+  std::string label;  ///< name of a parameter; empty for a capture velocity
   std::string unit;
   std::size_t dataset = 0;
-  double diameter = 0.0;     ///< diameter of a capture velocity [m]
+  double diameter = 0.0;     ///< of a capture velocity [m]
   double value = 0.0;        ///< assumed value, or derived from the assumed parameters [unit]
   double error = 0.0;        ///< relative standard error under the plan [1]
   double plain_error = 0.0;  ///< the same for equally many points evenly spaced in ln V [1]
@@ -68,6 +60,8 @@ struct PlannedQuantity {
   /// the only quantity. nullopt if no number is enough.
   std::optional<double> impacts, plain_impacts, alone_impacts;
   std::vector<LearntAt> learnt_at;  ///< the largest share first
+
+  bool is_parameter() const { return !label.empty(); }
 };
 
 /// A plan and the errors that it is expected to give.

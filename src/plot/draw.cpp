@@ -121,10 +121,8 @@ std::string pen(std::string_view colour, double width) {
 }
 
 std::string pen(const Stroke& stroke) {
-  constexpr std::array<const char*, 5> dashes = {"", "10 4", "5 4", "2.5 3", "10 4 3 4"};
-  const char* const dash = dashes[static_cast<std::size_t>(stroke.dash)];
   return pen(stroke.colour, stroke.width) +
-         (*dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
+         (stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash));
 }
 
 std::string paint(const Fill& fill) {
@@ -481,7 +479,7 @@ class PlotWriter {
   }
 
   std::string layer_svg(const Rule& rule) const {
-    return path_svg(rule.direction == Direction::vertical
+    return path_svg(rule.vertical
                         ? fmt::format("M{} {}V{}", px(x_(rule.at)), px(lower()), px(upper()))
                         : fmt::format("M{} {}H{}", px(x_.first), px(y_(rule.at)), px(x_.last)),
                     pen(rule.stroke));

@@ -52,12 +52,16 @@ inline constexpr std::array<Marker, 7> markers = {{{blue, Mark::dot},
 /// The marker of the k-th series; they repeat after the last one.
 inline const Marker& marker(std::size_t k) { return markers[k % markers.size()]; }
 
-enum class Dash { solid, long_dashes, dashes, dots, dash_dot };
+// Patterns of a stroke: lengths of dashes and gaps in turn [px].
+inline constexpr std::string_view long_dashes = "10 4";
+inline constexpr std::string_view dashes = "5 4";
+inline constexpr std::string_view dots = "2.5 3";
+inline constexpr std::string_view dash_dot = "10 4 3 4";
 
 struct Stroke {
   std::string_view colour = ink;
-  double width = 2.0;  ///< [px]
-  Dash dash = Dash::solid;
+  double width = 2.0;          ///< [px]
+  std::string_view dash = {};  ///< the pattern; empty: solid
 };
 
 struct Fill {
@@ -81,8 +85,6 @@ Range range_of(const std::vector<double>& values, double margin);
 /// The same for a logarithmic axis, with the margin as a share of the logarithmic width. Values
 /// that are not positive are omitted.
 Range log_range_of(const std::vector<double>& values, double margin);
-
-enum class Direction { horizontal, vertical };
 
 // Layers, drawn in their order. A layer with a name has an entry in the key.
 
@@ -133,9 +135,9 @@ struct Discs {
   std::string name = {};
 };
 
-/// A line across the whole plot.
+/// A line across the whole plot, vertical at an x or horizontal at a y.
 struct Rule {
-  Direction direction = Direction::vertical;
+  bool vertical = true;
   double at = 0.0;
   Stroke stroke = {};
   std::string name = {};

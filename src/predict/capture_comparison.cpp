@@ -12,7 +12,6 @@
 #include "estimate/predictor.hpp"
 #include "predict/capture_models.hpp"
 #include "predict/polydisperse.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 

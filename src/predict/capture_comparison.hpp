@@ -41,11 +41,10 @@ std::optional<PublishedYield> published_yield_pressure(const Material& particle)
 
 /// The model of a capture velocity.
 enum class CaptureModel { fit, jkr, thornton_ning, dahneke, wall };
-template <>
-struct NamesOf<CaptureModel> {
-  static constexpr std::array<std::string_view, 5> names = {"fit", "jkr", "thornton_ning",
-                                                            "dahneke", "wall"};
-};
+constexpr auto names_of_values(CaptureModel) {
+  return name_list("this fit", "JKR", "Thornton & Ning, yield", "Dahneke, eq. 1",
+                   "Wall et al., eq. 4");
+}
 
 /// Capture velocity against diameter from one model.
 struct CaptureCurve {

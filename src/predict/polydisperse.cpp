@@ -12,12 +12,11 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t conventions = all_conventions.size();
+constexpr std::size_t conventions = capture_conventions.size();
 
 /// The averages at one velocity under one set of parameters; NaN: no value.
 struct Mixture {
@@ -158,9 +157,9 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
   }
   const ImpactModel& model = fitted.model;
   const double d10 = sizes.mean_diameter();
-  out.size_curves = {{NamedSize::smallest, sizes.smallest, 0.0, {}},
-                     {NamedSize::d10, d10, 0.0, {}},
-                     {NamedSize::largest, sizes.largest, 0.0, {}}};
+  out.size_curves = {{"smallest", sizes.smallest, 0.0, {}},
+                     {"d10", d10, 0.0, {}},
+                     {"largest", sizes.largest, 0.0, {}}};
   for (SizeCurve& size : out.size_curves) {
     const CaptureVelocity found = capture_velocity(model, fitted.theta, dataset, size.diameter);
     if (found.found) size.capture_velocity = found.value;

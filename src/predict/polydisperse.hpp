@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/json.hpp"
@@ -14,20 +15,16 @@
 
 namespace recoil {
 
-/// The treatment of captured spheres in a weighted average. Li, Dunn & Brach (1999) do not state
+/// A treatment of captured spheres in a weighted average. Li, Dunn & Brach (1999) do not state
 /// theirs.
-enum class CaptureConvention {
-  captured_as_zero,   ///< a captured sphere has e = 0
-  captured_left_out,  ///< the mean is over the spheres that rebound
-  unseen_left_out,    ///< the mean is over the spheres that rebound to the measuring plane
+struct CaptureConvention {
+  std::string_view name;   ///< in CSV and JSON
+  std::string_view words;  ///< what it does
 };
-/// Their names in CSV and JSON.
-template <>
-struct NamesOf<CaptureConvention> {
-  static constexpr std::array<std::string_view, 3> names = {"captured_as_zero", "captured_left_out",
-                                                            "unseen_left_out"};
-};
-inline constexpr std::array all_conventions = values_of<CaptureConvention>();
+inline constexpr std::array<CaptureConvention, 3> capture_conventions = {
+    {{"captured_as_zero", "captured spheres count as e = 0"},
+     {"captured_left_out", "captured spheres left out"},
+     {"unseen_left_out", "spheres left out also when too slow to be seen"}}};
 
 /// A predicted quantity at one velocity, with its pointwise band.
 struct BandedValue {
@@ -39,16 +36,10 @@ struct BandedValue {
 /// The value of the fit with the percentiles of the replicates; NaN: no value.
 BandedValue banded(double value, std::vector<double> replicates, double level);
 
-/// A size of a mixture with its own curve; d10 is the mean diameter.
-enum class NamedSize { smallest, d10, largest };
-template <>
-struct NamesOf<NamedSize> {
-  static constexpr std::array<std::string_view, 3> names = {"smallest", "d10", "largest"};
-};
 
 /// e(V) of one size, for the paper's Fig. 10.
 struct SizeCurve {
-  NamedSize size = NamedSize::d10;
+  std::string_view name;            ///< "smallest", "d10" (the mean diameter) or "largest"
   double diameter = 0.0;            ///< [m]
   double capture_velocity = 0.0;    ///< [m/s]; 0 if none was found
   std::vector<double> restitution;  ///< [1], at the velocities of the prediction
@@ -72,13 +63,14 @@ struct PolydispersePrediction {
   std::size_t simulated = 0;     ///< number of simulated sizes
   std::size_t replicates = 0;    ///< number of bootstrap replicates for the bands; 0: none
   std::vector<double> velocity;  ///< V [m/s], ascending
-  std::array<std::vector<BandedValue>, 3> average;  ///< mean e by convention [1]
-  std::vector<BandedValue> captured;                ///< captured fraction of the spheres [1]
+  std::array<std::vector<BandedValue>, capture_conventions.size()> average;  ///< mean e [1]
+  std::vector<BandedValue> captured;  ///< captured fraction of the spheres [1]
   /// Fraction that is captured or too slow to reach the measuring plane [1].
   std::vector<BandedValue> unseen;
   std::vector<SizeCurve> size_curves;
-  std::array<CurveMiss, 3> miss;  ///< deviation of the three averages at the points of the dataset
-  CurveMiss miss_single;          ///< the same for spheres of diameter d10
+  std::array<CurveMiss, capture_conventions.size()>
+      miss;               ///< deviation of the three averages at the points of the dataset
+  CurveMiss miss_single;  ///< the same for spheres of diameter d10
 };
 
 struct PolydisperseOptions {

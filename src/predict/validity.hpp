@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -36,12 +34,11 @@ enum class ValidityQuantity {
   wave_transits,
 };
 
-template <>
-struct NamesOf<ValidityQuantity> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "contact_radius_over_sphere_radius", "peak_pressure_over_modulus",
-      "peak_pressure_over_yield_pressure", "tabor_parameter", "contact_time_over_wave_transit"};
-};
+constexpr auto names_of_values(ValidityQuantity) {
+  return name_list("contact_radius_over_sphere_radius", "peak_pressure_over_modulus",
+                   "peak_pressure_over_yield_pressure", "tabor_parameter",
+                   "contact_time_over_wave_transit");
+}
 
 /// One quantity at one impact, with the limit of the equations.
 struct Validity {

@@ -7,8 +7,10 @@
 
 #include "document/html.hpp"
 #include "report/format.hpp"
+#include "report/words_candidate.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_diagnosis.hpp"
+#include "report/words_restitution.hpp"
 
 namespace recoil {
 namespace {

@@ -8,7 +8,6 @@
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "predict/polydisperse.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
 #include "report/words_diagnosis.hpp"
@@ -112,7 +111,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
                         {-largest_z, largest_z},
                         {{-1.0, plot::blue}, {0.0, "#EEEEEE"}, {1.0, plot::vermillion}}};
   if (one_size) {
-    shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
+    shown.layers.push_back(plot::Rule{.vertical = false, .at = 0.0, .stroke = {plot::ink, 1.0}});
     shown.layers.push_back(plot::Words{
         fmt::format("d = {:.4g} {}", deviations.diameters.front(), size_unit(d.datasets).sign),
         plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
@@ -194,7 +193,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     const TwoCurves curves =
         curves_of(d, dataset, diameter, size.series, {shown.x.from, shown.x.to});
     shown.layers.push_back(
-        plot::Line{curves.velocity, curves.base, {marker.colour, 1.2, plot::Dash::dashes}});
+        plot::Line{curves.velocity, curves.base, {marker.colour, 1.2, plot::dashes}});
     shown.layers.push_back(plot::Line{curves.velocity, curves.extended, {marker.colour, 2.0}});
     plot::Points points{size.velocity, size.restitution};
     points.with_sd(size.sd);

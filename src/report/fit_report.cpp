@@ -14,6 +14,8 @@
 #include "report/prediction_report.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
+#include "report/words_restitution.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {

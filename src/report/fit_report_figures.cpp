@@ -36,8 +36,7 @@ void add_capture(const CaptureEstimate& capture, const Axes& axes, plot::Plot& s
     shown.layers.push_back(plot::Region{inside(*interval.lower), inside(*interval.upper)});
   }
   if (capture.value > axes.velocity.lower && capture.value < axes.velocity.upper) {
-    shown.layers.push_back(
-        plot::Rule{plot::Direction::vertical, capture.value, {plot::green, 1.4}});
+    shown.layers.push_back(plot::Rule{.at = capture.value, .stroke = {plot::green, 1.4}});
   }
 }
 
@@ -66,8 +65,7 @@ void add_curve(const Analysis& analysis, const RestitutionCurve& curve, plot::Pl
   fit.name = "fit to all points";
   shown.layers.push_back(std::move(fit));
   if (!columns.two_point.empty()) {
-    plot::Line two{
-        columns.velocity, columns.two_point, {plot::vermillion, 2.0, plot::Dash::long_dashes}};
+    plot::Line two{columns.velocity, columns.two_point, {plot::vermillion, 2.0, plot::long_dashes}};
     two.name = "two points";
     shown.layers.push_back(std::move(two));
   }
@@ -262,9 +260,9 @@ plot::Plot residual_plot(const std::vector<ResidualRow>& rows) {
   shown.key = plot::KeyPlace::above;
   for (const double at : {-2.0, 2.0}) {
     shown.layers.push_back(
-        plot::Rule{plot::Direction::horizontal, at, {plot::grey, 1.0, plot::Dash::dashes}});
+        plot::Rule{.vertical = false, .at = at, .stroke = {plot::grey, 1.0, plot::dashes}});
   }
-  shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.2}});
+  shown.layers.push_back(plot::Rule{.vertical = false, .at = 0.0, .stroke = {plot::ink, 1.2}});
   const bool distinct = by_diameter.size() <= plot::markers.size();
   std::size_t index = 0;
   for (auto& [diameter, points] : by_diameter) {
@@ -293,10 +291,10 @@ Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRo
 
 /// One stroke for each model. Colours and dashes differ.
 constexpr std::array<plot::Stroke, 5> strokes = {{{plot::blue, 2.0},
-                                                  {plot::ink, 2.0, plot::Dash::long_dashes},
-                                                  {plot::vermillion, 2.0, plot::Dash::dots},
-                                                  {plot::green, 2.0, plot::Dash::dash_dot},
-                                                  {plot::purple, 2.0, plot::Dash::dashes}}};
+                                                  {plot::ink, 2.0, plot::long_dashes},
+                                                  {plot::vermillion, 2.0, plot::dots},
+                                                  {plot::green, 2.0, plot::dash_dot},
+                                                  {plot::purple, 2.0, plot::dashes}}};
 
 /// The range of all shown velocities [m/s], with a margin.
 plot::Range capture_range(const CaptureComparison& comparison) {
@@ -347,7 +345,7 @@ plot::Plot capture_plot(const CaptureComparison& comparison, const Dataset& data
           plot::Band{diameters, curve.lower, curve.upper, {std::string(stroke.colour), 0.2}});
     }
     plot::Line line{diameters, curve.velocity, stroke};
-    line.name = words_of(curve.model);
+    line.name = to_string(curve.model);
     shown.layers.push_back(std::move(line));
   }
   add_published(comparison, true, shown);

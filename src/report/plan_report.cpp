@@ -12,7 +12,7 @@
 #include "predict/validity.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"
-#include "report/words_dataset.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 
@@ -25,7 +25,7 @@ Cell impacts_cell(const std::optional<double>& impacts) {
 }
 
 Sentence name_of_quantity(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
-  if (quantity.kind == PlannedKind::parameter) return symbol(quantity.label);
+  if (quantity.is_parameter()) return symbol(quantity.label);
   Sentence name = say("{V*} of {}", diameter_words(quantity.diameter));
   if (plan.datasets.size() > 1) name += Sentence(", " + plan.datasets[quantity.dataset].id);
   return name;
@@ -231,8 +231,8 @@ Json place_json(const ExperimentPlan& plan, std::size_t dataset, double diameter
 
 Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
   Json out;
-  out["kind"] = to_string(quantity.kind);
-  if (quantity.kind == PlannedKind::parameter) {
+  out["kind"] = quantity.is_parameter() ? "parameter" : "capture_velocity";
+  if (quantity.is_parameter()) {
     out["parameter"] = quantity.label;
   } else {
     out["dataset"] = plan.datasets[quantity.dataset].id;

@@ -24,10 +24,9 @@ constexpr std::size_t rows_shown = 14;
 // ---- pictures ----------------------------------------------------------------------------------
 
 /// One stroke for each convention. Colours and dashes differ.
-constexpr std::array<plot::Stroke, 3> strokes_of_averages = {
-    {{plot::blue, 2.0},
-     {plot::green, 2.0, plot::Dash::long_dashes},
-     {plot::vermillion, 2.0, plot::Dash::dots}}};
+constexpr std::array<plot::Stroke, 3> strokes_of_averages = {{{plot::blue, 2.0},
+                                                              {plot::green, 2.0, plot::long_dashes},
+                                                              {plot::vermillion, 2.0, plot::dots}}};
 constexpr std::array<const char*, 3> average_names = {"captured as e = 0", "captured left out",
                                                       "unseen left out"};
 
@@ -104,8 +103,8 @@ Table misses_table(const PolydispersePrediction& mixture) {
     table.rows.push_back({curve, cell_if(number_if(miss.rmse, padded(2))), whole(miss.points)});
   };
   add(say("{d10} alone"), mixture.miss_single);
-  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
-    add(words_of(all_conventions[c]), mixture.miss[c]);
+  for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
+    add(capture_conventions[c].words, mixture.miss[c]);
   }
   return table;
 }
@@ -142,10 +141,10 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
     words.push_back(say("the three conventions differ by up to {} in {e}, at {} m/s",
                         digits(apart.value, 2), number(apart.velocity, 3)));
   }
-  std::vector<std::pair<double, std::string>> misses;
-  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
+  std::vector<std::pair<double, std::string_view>> misses;
+  for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
     if (mixture.miss[c].rmse) {
-      misses.emplace_back(*mixture.miss[c].rmse, words_of(all_conventions[c]));
+      misses.emplace_back(*mixture.miss[c].rmse, capture_conventions[c].words);
     }
   }
   if (!misses.empty() && mixture.miss_single.rmse) {
@@ -181,25 +180,6 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
 
 }  // namespace
 
-std::string words_of(CaptureConvention convention) {
-  using enum CaptureConvention;
-  static constexpr Phrase<CaptureConvention> phrases[] = {
-      {captured_as_zero, "captured spheres count as e = 0"},
-      {captured_left_out, "captured spheres left out"},
-      {unseen_left_out, "spheres left out also when too slow to be seen"}};
-  return phrase_for(phrases, convention).words;
-}
-
-std::string words_of(CaptureModel model) {
-  using enum CaptureModel;
-  static constexpr Phrase<CaptureModel> phrases[] = {{fit, "this fit"},
-                                                     {jkr, "JKR"},
-                                                     {thornton_ning, "Thornton & Ning, yield"},
-                                                     {dahneke, "Dahneke, eq. 1"},
-                                                     {wall, "Wall et al., eq. 4"}};
-  return phrase_for(phrases, model).words;
-}
-
 Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture) {
   plot::Plot shown;
   shown.heading = "Weighted averages over the sizes";
@@ -207,11 +187,11 @@ Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mi
   shown.x = velocity_axis({mixture.velocity.front(), mixture.velocity.back()});
   shown.y = restitution_axis(1.05);
   shown.key = plot::KeyPlace::below;
-  for (std::size_t k = 0; k < all_conventions.size(); ++k) {
+  for (std::size_t k = 0; k < capture_conventions.size(); ++k) {
     shown.layers.push_back(
         band_of(mixture.velocity, mixture.average[k], strokes_of_averages[k].colour));
   }
-  for (std::size_t k = 0; k < all_conventions.size(); ++k) {
+  for (std::size_t k = 0; k < capture_conventions.size(); ++k) {
     shown.layers.push_back(
         line_of(mixture.velocity, mixture.average[k], strokes_of_averages[k], average_names[k]));
   }
@@ -265,8 +245,8 @@ Json banded_json(const BandedValue& at) {
 
 std::string csv_prediction(const PolydispersePrediction& mixture) {
   std::string csv = "incident_velocity_m_s,restitution_d10";
-  for (const CaptureConvention convention : all_conventions) {
-    csv += fmt::format(",{0},{0}_lower,{0}_upper", to_string(convention));
+  for (const CaptureConvention& convention : capture_conventions) {
+    csv += fmt::format(",{0},{0}_lower,{0}_upper", convention.name);
   }
   for (const char* part : {"captured_fraction", "unseen_fraction"}) {
     csv += fmt::format(",{0},{0}_lower,{0}_upper", part);
@@ -307,15 +287,15 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
   out["replicates"] = mixture.replicates;
   out["seed"] = analysis.uncertainty.bootstrap.seed;
   Json conventions;
-  for (std::size_t c = 0; c < all_conventions.size(); ++c) {
-    conventions[to_string(all_conventions[c])] = {{"means", words_of(all_conventions[c])},
-                                                  {"miss", as_json(mixture.miss[c])}};
+  for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
+    conventions[std::string(capture_conventions[c].name)] = {
+        {"means", capture_conventions[c].words}, {"miss", as_json(mixture.miss[c])}};
   }
   out["conventions"] = conventions;
   out["d10_alone"] = {{"miss", as_json(mixture.miss_single)}};
   Json sizes = Json::array();
   for (const SizeCurve& size : mixture.size_curves) {
-    sizes.push_back({{"name", to_string(size.size)},
+    sizes.push_back({{"name", size.name},
                      {"diameter_um", size.diameter / units::um},
                      {"capture_velocity", number_or_null(size.capture_velocity)},
                      {"restitution", as_json(size.restitution)}});
@@ -325,8 +305,8 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
   for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
     Json row;
     row["incident_velocity"] = mixture.velocity[k];
-    for (std::size_t c = 0; c < all_conventions.size(); ++c) {
-      row[to_string(all_conventions[c])] = banded_json(mixture.average[c][k]);
+    for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
+      row[std::string(capture_conventions[c].name)] = banded_json(mixture.average[c][k]);
     }
     row["captured_fraction"] = banded_json(mixture.captured[k]);
     row["unseen_fraction"] = banded_json(mixture.unseen[k]);

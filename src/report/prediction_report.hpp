@@ -9,12 +9,6 @@
 /// The mean restitution of a mixture of sizes, for `recoil predict` and the page of a fit.
 namespace recoil {
 
-/// A convention for averages: "captured spheres count as e = 0".
-std::string words_of(CaptureConvention convention);
-
-/// A capture model in the key of a picture: "this fit", "JKR".
-std::string words_of(CaptureModel model);
-
 /// The averages under the three conventions and the curve of the mean diameter d10 (Figs. 11 and 12
 /// of Li, Dunn & Brach 1999).
 Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture);

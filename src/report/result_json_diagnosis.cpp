@@ -3,6 +3,7 @@
 
 #include "core/units.hpp"
 #include "report/result_json.hpp"
+#include "report/words_candidate.hpp"
 #include "report/words_diagnosis.hpp"
 
 namespace recoil {

@@ -14,6 +14,7 @@
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {

@@ -24,14 +24,8 @@ std::string words_of(StructureQuestion question);
 /// A block of held-out points: "2.58 um", "1.1 to 4.7 m/s", "wall1990-mica".
 std::string fold_words(const Fold& fold, const std::vector<Dataset>& datasets);
 
-/// Why the value of a parameter is not possible; empty if it is possible.
-std::string implausible_words(const FoundParameter& parameter);
-
-/// Why a candidate is not accepted as a cause; empty if it is accepted.
-std::string set_aside_words(const CandidateResult& candidate);
-
-/// `set_aside_words` in a few words, for a table.
-std::string short_set_aside_words(const CandidateResult& candidate);
+/// The names of the first five causes, and the number of the others.
+std::string cause_words(const std::vector<std::string>& ids, const char* between = ", ");
 
 /// Warnings about the diagnosis: failed simulations, a failed fit of the extended model.
 std::vector<std::string> diagnosis_warnings(const Diagnosis& diagnosis);

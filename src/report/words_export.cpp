@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "analysis/analysis.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"

@@ -273,15 +273,11 @@ std::string short_note(Caution caution) {
 }
 
 std::string recommended_words(const IntervalSet& set) {
-  switch (set.because) {
-    case RecommendedBecause::noise_stated:
-      return "profile likelihood";
-    case RecommendedBecause::noise_estimated:
-      return "profile likelihood, with Student's factor because the noise is estimated";
-    case RecommendedBecause::no_profile:
-      return "there is no profile: " + missing_words(set[IntervalKind::profile]);
+  if (set.recommended != IntervalKind::profile) {
+    return "there is no profile: " + missing_words(set[IntervalKind::profile]);
   }
-  return "";
+  return set.student ? "profile likelihood, with Student's factor because the noise is estimated"
+                     : "profile likelihood";
 }
 
 std::string recommended_words(const CaptureEstimate& capture) {
@@ -368,13 +364,10 @@ std::string failures_words(const BootstrapResult& bootstrap, const Observations&
 
 std::string held_out_words(const TwoPointComparison& comparison) {
   if (!comparison.nothing_held_out) return "";
-  switch (*comparison.nothing_held_out) {
-    case NothingHeldOut::single_diameter:
-      return "the dataset has a single diameter, so none is held out";
-    case NothingHeldOut::refit_failed:
-      return "the full fit of that diameter alone failed: " + comparison.refit_failure;
+  if (!comparison.refit_failure.empty()) {
+    return "the full fit of that diameter alone failed: " + comparison.refit_failure;
   }
-  return "";
+  return "the dataset has a single diameter, so none is held out";
 }
 
 Sentence direction_words(const FitResult& fitted, const InformationDirection& direction) {
@@ -465,14 +458,12 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
 std::string no_leave_one_out_words(const PosteriorResult& posterior) {
   if (!posterior.available()) return no_posterior_words(posterior);
   if (posterior.draws.empty()) return "no parameter moves";
-  if (!posterior.left_out.missing) return {};
-  switch (*posterior.left_out.missing) {
-    case NoLeaveOneOut::shared_errors:
-      return "points share an error, and one of them alone has no likelihood";
-    case NoLeaveOneOut::student:
-      return "the likelihood with Student's t is known only up to a factor";
+  if (posterior.left_out.shared_errors) {
+    return "points share an error, and one of them alone has no likelihood";
   }
-  return {};
+  return posterior.left_out.unscaled
+             ? "the likelihood with Student's t is known only up to a factor"
+             : "";
 }
 
 Sentence leave_one_out_words(const Analysis& a) {

@@ -15,10 +15,9 @@ enum class CaptureIntervalKind {
   percentile,   ///< bootstrap percentiles
   studentized,  ///< bootstrap-t of ln V*, with errors from its gradient in every replicate
 };
-template <>
-struct NamesOf<CaptureIntervalKind> {
-  static constexpr std::array<std::string_view, 3> names = {"delta", "percentile", "studentized"};
-};
+constexpr auto names_of_values(CaptureIntervalKind) {
+  return name_list("delta", "percentile", "studentized");
+}
 
 /// The rule of `recommend_capture` that selected the interval to quote.
 enum class CaptureBecause {
@@ -29,11 +28,10 @@ enum class CaptureBecause {
   spread_estimated,  ///< delta: its error includes that the spread of the impacts is estimated
   noise_estimated,   ///< delta: it accounts for the few points that estimate the noise
 };
-template <>
-struct NamesOf<CaptureBecause> {
-  static constexpr std::array<std::string_view, 6> names = {
-      "no_delta", "at_bound", "bend", "no_percentiles", "spread_estimated", "noise_estimated"};
-};
+constexpr auto names_of_values(CaptureBecause) {
+  return name_list("no_delta", "at_bound", "bend", "no_percentiles", "spread_estimated",
+                   "noise_estimated");
+}
 
 /// The capture velocity of one (dataset, diameter).
 struct CaptureEstimate {

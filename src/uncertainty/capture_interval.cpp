@@ -109,18 +109,6 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
   return estimates;
 }
 
-double capture_level(const std::vector<NoiseAlternative>& alternatives, const CaptureEstimate& at,
-                     const FitResult& truth) {
-  const FitResult& fitted = alternatives.front().fitted;
-  const CaptureVelocity there =
-      capture_velocity(truth.model, truth.theta, at.dataset, at.diameter, at.value);
-  const CaptureVelocity v =
-      capture_velocity(fitted.model, fitted.theta, at.dataset, at.diameter, at.value);
-  if (!there.found || !v.found || !(there.value > 0.0) || !(v.value > 0.0)) return std::nan("");
-  return averaged_wald_level(capture_terms(alternatives, v, at.dataset, at.diameter),
-                             std::log(there.value / v.value));
-}
-
 Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
                           const CaptureEstimate& at, double level) {
   const FitResult& fitted = alternatives.front().fitted;

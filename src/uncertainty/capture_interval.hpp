@@ -13,11 +13,6 @@ namespace recoil {
 std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets);
 
-/// The level at which the delta interval at `at` just contains the capture velocity of `truth`
-/// there; NaN if either has none.
-double capture_level(const std::vector<NoiseAlternative>& alternatives, const CaptureEstimate& at,
-                     const FitResult& truth);
-
 /// The delta interval of V* [m/s] at another level.
 Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
                           const CaptureEstimate& at, double level);

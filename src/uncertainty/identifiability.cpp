@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 namespace recoil {

@@ -12,11 +12,9 @@
 namespace recoil {
 
 enum class IdentifiabilityVerdict { identifiable, partly, not_identifiable };
-template <>
-struct NamesOf<IdentifiabilityVerdict> {
-  static constexpr std::array<std::string_view, 3> names = {"identifiable", "partly",
-                                                            "not_identifiable"};
-};
+constexpr auto names_of_values(IdentifiabilityVerdict) {
+  return name_list("identifiable", "partly", "not_identifiable");
+}
 
 /// The reason why a parameter is not identifiable.
 enum class Hindrance {
@@ -30,13 +28,11 @@ enum class Hindrance {
   undecided_noise,  ///< its error depends on the variance function that is assumed
   wide_spread,      ///< the capture velocity scatters too much from impact to impact
 };
-template <>
-struct NamesOf<Hindrance> {
-  static constexpr std::array<std::string_view, 9> names = {
-      "no_interval",     "reaches_upper_bound",  "reaches_lower_bound",
-      "rests_on_bound",  "consistent_with_zero", "large_error",
-      "uncertain_error", "undecided_noise",      "wide_spread"};
-};
+constexpr auto names_of_values(Hindrance) {
+  return name_list("no_interval", "reaches_upper_bound", "reaches_lower_bound", "rests_on_bound",
+                   "consistent_with_zero", "large_error", "uncertain_error", "undecided_noise",
+                   "wide_spread");
+}
 
 /// Largest standard error over the scale of a parameter that counts as well determined [1].
 inline constexpr double widest_error = 0.1;

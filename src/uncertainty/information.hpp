@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/names.hpp"
 #include "estimate/fit.hpp"
 
 namespace recoil {
@@ -13,11 +12,6 @@ enum class Combination {
   capture_velocity,  ///< V*^2 ~ V_a^3 (C_A + 2 C_H)
   adhesion_loss,     ///< C_A f0, far above capture
   plateau_loss,      ///< C_H, in the fastest impacts
-};
-template <>
-struct NamesOf<Combination> {
-  static constexpr std::array<std::string_view, 3> names = {"capture_velocity", "adhesion_loss",
-                                                            "plateau_loss"};
 };
 
 /// One eigenvector of the expected information: a product of powers of the free parameters.

@@ -17,19 +17,14 @@ enum class IntervalKind {
   bca,          ///< bootstrap percentiles, corrected for bias and acceleration
   studentized,  ///< bootstrap-t
 };
-template <>
-struct NamesOf<IntervalKind> {
-  static constexpr std::array<std::string_view, 5> names = {"wald", "profile", "percentile", "bca",
-                                                            "studentized"};
-};
+constexpr auto names_of_values(IntervalKind) {
+  return name_list("wald", "profile", "percentile", "bca", "studentized");
+}
 
 /// How many ends of a profile interval the likelihood determines: both, one, or none. The others
 /// are bounds of the parameter.
 enum class ProfileShape { bounded, one_sided, flat };
-template <>
-struct NamesOf<ProfileShape> {
-  static constexpr std::array<std::string_view, 3> names = {"bounded", "one-sided", "flat"};
-};
+constexpr auto names_of_values(ProfileShape) { return name_list("bounded", "one-sided", "flat"); }
 
 /// The reason for a missing interval.
 enum class NoInterval {
@@ -50,18 +45,13 @@ enum class NoInterval {
   noise_unknown,   ///< the noise is not stated and cannot be estimated
   all_captured,    ///< capture velocity: no sphere rebounded
 };
-template <>
-struct NamesOf<NoInterval> {
-  static constexpr std::array<std::string_view, 16> names = {
-      "not_assessed",          "fixed",
-      "nothing_free",          "no_standard_error",
-      "refit_failed",          "few_replicates",
-      "few_delete_one_refits", "one_sided_replicates",
-      "large_acceleration",    "replicates_without_error",
-      "refits_failed",         "never_rebounds",
-      "never_captured",        "no_covariance",
-      "noise_unknown",         "all_captured"};
-};
+constexpr auto names_of_values(NoInterval) {
+  return name_list("not_assessed", "fixed", "nothing_free", "no_standard_error", "refit_failed",
+                   "few_replicates", "few_delete_one_refits", "one_sided_replicates",
+                   "large_acceleration", "replicates_without_error", "refits_failed",
+                   "never_rebounds", "never_captured", "no_covariance", "noise_unknown",
+                   "all_captured");
+}
 
 /// The smallest number of replicates for an interval: (B + 1) (1 - level) / 2 >= 1.
 inline std::size_t fewest_replicates(double level) {
@@ -90,12 +80,10 @@ enum class Caution {
   mixed_sizes,        ///< see `mixed_capture_coverage`
   model_rejected,     ///< the data reject the model that gives the value
 };
-template <>
-struct NamesOf<Caution> {
-  static constexpr std::array<std::string_view, 7> names = {
-      "spans_both_bounds", "begins_at_bound", "ends_at_bound", "undecided_noise",
-      "wide_spread",       "mixed_sizes",     "model_rejected"};
-};
+constexpr auto names_of_values(Caution) {
+  return name_list("spans_both_bounds", "begins_at_bound", "ends_at_bound", "undecided_noise",
+                   "wide_spread", "mixed_sizes", "model_rejected");
+}
 
 struct IntervalNote {
   Caution caution = Caution::begins_at_bound;
@@ -139,18 +127,6 @@ struct ProfilePoint {
   double allowed = 0.0;  ///< the rise at which an interval ends at this value [1]
 };
 
-/// The rule of `recommend` that selected the interval to quote.
-enum class RecommendedBecause {
-  noise_stated,     ///< the profile, under stated standard deviations
-  noise_estimated,  ///< the profile, with Student's factor
-  no_profile,       ///< percentile or Wald, as there is no profile
-};
-template <>
-struct NamesOf<RecommendedBecause> {
-  static constexpr std::array<std::string_view, 3> names = {"noise_stated", "noise_estimated",
-                                                            "no_profile"};
-};
-
 /// The differences between the intervals of one parameter, and their causes.
 struct Disagreement {
   struct Difference {
@@ -190,7 +166,7 @@ struct Disagreement {
 struct IntervalSet {
   PerValue<IntervalKind, Interval> of_kind;
   IntervalKind recommended = IntervalKind::wald;
-  RecommendedBecause because = RecommendedBecause::no_profile;
+  bool student = false;  ///< the profile has Student's factor, as the noise is estimated
   std::vector<ProfilePoint> profile_curve;   ///< empty unless requested (`add_profile_curves`)
   std::optional<Disagreement> disagreement;  ///< nullopt if the kinds agree
   std::optional<BcaConstants> bca_constants;

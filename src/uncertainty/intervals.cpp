@@ -194,26 +194,6 @@ double profile_quantile(double level, int dof, double distance) {
   return find_root(excess, on_bound, far);
 }
 
-double level_of_rise(double rise, int dof, double distance) {
-  const double root = std::sqrt(rise);
-  const double above = distribution(root, dof);
-  if (!(root > distance)) return 2.0 * above - 1.0;
-  if (!(distance > 0.0)) return above;
-  return above - distribution(-(rise + distance * distance) / (2.0 * distance), dof);
-}
-
-double averaged_wald_level(std::span<const WaldTerm> terms, double value) {
-  if (terms.empty() || !(terms.front().std_error > 0.0)) return std::nan("");
-  double below = 0.0;
-  double total = 0.0;
-  for (const WaldTerm& term : terms) {
-    if (!(term.std_error > 0.0)) continue;
-    below += term.weight * distribution((value - term.estimate) / term.std_error, term.dof);
-    total += term.weight;
-  }
-  return std::abs(2.0 * below / total - 1.0);
-}
-
 std::vector<double> sandwich_covariance(std::span<const double> residuals,
                                         std::span<const double> jacobian,
                                         std::span<const double> covariance) {

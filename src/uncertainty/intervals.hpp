@@ -73,13 +73,6 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
 /// @param dof 0: the noise is known
 double profile_quantile(double level, int dof, double distance);
 
-/// The level whose `profile_quantile` is `rise`.
-double level_of_rise(double rise, int dof, double distance);
-
-/// The level at which `averaged_wald_interval` without bounds ends at `value`; NaN without the
-/// error of the first term.
-double averaged_wald_level(std::span<const WaldTerm> terms, double value);
-
 /// The sandwich covariance, which is valid for unequal scatter of the points without a noise model:
 /// C J' diag(r^2 / (1 - h)^2) J C with C = (J'J)^-1, "HC3" (MacKinnon & White 1985, J. Econometrics
 /// 29, 305-325) [p x p].

@@ -181,15 +181,12 @@ std::optional<Disagreement::FewPoints> few_points_of(const FitResult& fitted, do
 }  // namespace
 
 void recommend(IntervalSet& set, bool sd_stated) {
-  if (set[IntervalKind::profile].available()) {
-    set.recommended = IntervalKind::profile;
-    set.because =
-        sd_stated ? RecommendedBecause::noise_stated : RecommendedBecause::noise_estimated;
-    return;
+  set.student = !sd_stated;
+  for (const IntervalKind kind :
+       {IntervalKind::profile, IntervalKind::percentile, IntervalKind::wald}) {
+    set.recommended = kind;
+    if (set[kind].available()) return;
   }
-  set.recommended =
-      set[IntervalKind::percentile].available() ? IntervalKind::percentile : IntervalKind::wald;
-  set.because = RecommendedBecause::no_profile;
 }
 
 std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::size_t slot,

@@ -80,7 +80,7 @@ bool scale_unknown(const FitResult& fitted) {
 }
 
 /// A state of a chain.
-struct Place {
+struct State {
   std::vector<double> z, theta, residuals;
   double log_density = -INFINITY;  ///< posterior density in z, up to a constant
 };
@@ -110,15 +110,15 @@ class Posterior {
   const PosteriorCoordinates coordinates;
   const bool scaled;  ///< the scale of the noise is unknown
 
-  void evaluate(Place& place) {
-    place.log_density = -INFINITY;
-    place.residuals.resize(problem_.residual_count);
-    if (!coordinates.to_theta(place.z, place.theta) ||
-        !problem_.evaluate(place.theta, place.residuals, {})) {
+  void evaluate(State& state) {
+    state.log_density = -INFINITY;
+    state.residuals.resize(problem_.residual_count);
+    if (!coordinates.to_theta(state.z, state.theta) ||
+        !problem_.evaluate(state.theta, state.residuals, {})) {
       return;
     }
-    const auto [scatter, rebounds, rest] = sums(place.residuals);
-    place.log_density = coordinates.log_volume(place.z) - 0.5 * rest -
+    const auto [scatter, rebounds, rest] = sums(state.residuals);
+    state.log_density = coordinates.log_volume(state.z) - 0.5 * rest -
                         (scaled ? 0.5 * rebounds * std::log(scatter) : 0.0);
   }
 
@@ -158,32 +158,32 @@ class Posterior {
   }
 
   /// Draws the scale of the noise, given the parameters.
-  double draw_scale(const Place& place, RandomStream& random) const {
-    const auto [scatter, rebounds, rest] = sums(place.residuals);
+  double draw_scale(const State& state, RandomStream& random) const {
+    const auto [scatter, rebounds, rest] = sums(state.residuals);
     return std::sqrt(scatter / gsl_cdf_chisq_Pinv(random.uniform(), rebounds));
   }
   /// ln likelihood of every point [points].
-  std::vector<double> pointwise(const Place& place, double scale) const {
+  std::vector<double> pointwise(const State& state, double scale) const {
     std::vector<double> each = peaks_;
     for (std::size_t i = 0; i < each.size(); ++i) {
       const double s = scatters(i) ? scale : 1.0;
-      each[i] -= 0.5 * std::pow(place.residuals[i] / s, 2) + std::log(s);
+      each[i] -= 0.5 * std::pow(state.residuals[i] / s, 2) + std::log(s);
     }
     return each;
   }
   /// The term that shared errors add to the sum of `pointwise`.
   double shared() const { return -0.5 * log_determinant_; }
   /// ln prior density of theta, or of ln theta for `log_scale`.
-  double log_prior(const Place& place, double scale) const {
+  double log_prior(const State& state, double scale) const {
     double ln = -std::log(scale);
     for (const std::size_t j : coordinates.moving()) {
       const ParameterSlot& slot = fitted_.model.slots[j];
       if (slot.is_constant()) {
         const std::size_t k = j - fitted_.model.first_constant();
-        const double deviation = place.residuals[data_.points.size() + k];
-        ln += std::log(fitted_.model.constants[k].deviation_slope(place.theta[j])) -
+        const double deviation = state.residuals[data_.points.size() + k];
+        ln += std::log(fitted_.model.constants[k].deviation_slope(state.theta[j])) -
               0.5 * (deviation * deviation + std::log(2.0 * std::numbers::pi));
-        if (slot.log_scale) ln += std::log(place.theta[j]);
+        if (slot.log_scale) ln += std::log(state.theta[j]);
       } else {
         ln -=
             std::log(slot.log_scale ? std::log(slot.upper / slot.lower) : slot.upper - slot.lower);
@@ -226,17 +226,17 @@ class Proposals {
   bool usable() const { return factor_.info() == Eigen::Success && centre_.allFinite(); }
 
   /// Draws from Student's t about the centre, scaled by `wide`.
-  std::vector<double> anywhere(RandomStream& random, double wide = 1.0) const {
+  std::vector<double> independent_proposal(RandomStream& random, double wide = 1.0) const {
     const double squares = gsl_cdf_chisq_Pinv(random.uniform(), freedom);
     return away(centre_, wide * std::sqrt(freedom / squares), random);
   }
-  /// ln density of `anywhere`, up to a constant.
+  /// ln density of `independent_proposal`, up to a constant.
   double log_density(const std::vector<double>& z) const {
     const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
     const double square = factor_.matrixL().solve(at - centre_).squaredNorm();
     return -0.5 * (freedom + static_cast<double>(centre_.size())) * std::log1p(square / freedom);
   }
-  std::vector<double> near(const std::vector<double>& z, RandomStream& random) const {
+  std::vector<double> random_walk(const std::vector<double>& z, RandomStream& random) const {
     const Eigen::Map<const Eigen::VectorXd> at(z.data(), centre_.size());
     // The optimal step for a normal density (Roberts, Gelman & Gilks 1997), or a third of it.
     const double length = 2.38 / std::sqrt(static_cast<double>(centre_.size()));
@@ -261,27 +261,28 @@ class Proposals {
 struct Chain {
   std::unique_ptr<Posterior> density;
   RandomStream random;
-  Place at;
-  std::vector<Place> kept;
+  State at;
+  std::vector<State> kept;
   int accepted = 0;
 
   /// Draws the start from a distribution twice as wide as the posterior. @return false if no state
   /// of finite density was found
   bool start(const Proposals& proposals) {
     for (int tries = 0; tries < 1000 && !std::isfinite(at.log_density); ++tries) {
-      at.z = proposals.anywhere(random, 2.0);
+      at.z = proposals.independent_proposal(random, 2.0);
       density->evaluate(at);
     }
     return std::isfinite(at.log_density);
   }
   void step(const Proposals& proposals) {
-    Place next;
-    const bool anywhere = random.uniform() < 0.5;
+    State next;
+    const bool independent = random.uniform() < 0.5;
     const double chance = std::log(random.uniform());
-    next.z = anywhere ? proposals.anywhere(random) : proposals.near(at.z, random);
+    next.z =
+        independent ? proposals.independent_proposal(random) : proposals.random_walk(at.z, random);
     density->evaluate(next);
     double gain = next.log_density - at.log_density;
-    if (anywhere) gain += proposals.log_density(at.z) - proposals.log_density(next.z);
+    if (independent) gain += proposals.log_density(at.z) - proposals.log_density(next.z);
     if (!(chance < gain)) return;
     ++accepted;
     at = std::move(next);
@@ -312,15 +313,15 @@ bool settled(const ChainCheck& check, const PosteriorOptions& options) {
          check.tail >= options.least_effective;
 }
 
-Proposals learned(const std::vector<Chain>& chains) {
+Proposals adapted(const std::vector<Chain>& chains) {
   const auto p = static_cast<Eigen::Index>(chains.front().at.z.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(p);
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(p, p);
   double count = 0.0;
   const Eigen::VectorXd origin = Eigen::Map<const Eigen::VectorXd>(chains[0].at.z.data(), p);
   for (const Chain& chain : chains) {
-    for (const Place& place : chain.kept) {
-      const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(place.z.data(), p) - origin;
+    for (const State& state : chain.kept) {
+      const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(state.z.data(), p) - origin;
       sum += d;
       squares += d * d.transpose();
       ++count;
@@ -383,7 +384,7 @@ SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
       sampled.missing = NoPosterior::not_settled;
       break;
     }
-    Proposals better = learned(sampled.chains);
+    Proposals better = adapted(sampled.chains);
     if (better.usable()) proposals = std::move(better);
   }
   for (const Chain& chain : sampled.chains) {
@@ -422,7 +423,7 @@ void keep_draws(const std::vector<NoiseAlternative>& alternatives,
                 const PosteriorOptions& options, PosteriorResult& result) {
   const std::vector<Observation>& points = alternatives.front().fitted.data.points;
   const bool scaled = sampled.front().chains.front().density->scaled;
-  if (!result.left_out.missing) result.pointwise.resize(points.size());
+  if (result.left_out.possible()) result.pointwise.resize(points.size());
   for (std::size_t c = 0; c < options.chains; ++c) {
     RandomStream constants(options.seed, RandomPurpose::constants, c);
     RandomStream scales(options.seed, RandomPurpose::posterior, (std::uint64_t{1} << 32) + c);
@@ -433,14 +434,14 @@ void keep_draws(const std::vector<NoiseAlternative>& alternatives,
         share -= alternatives[k++].weight;
       }
       const Posterior& density = *sampled[k].chains[c].density;
-      const Place& place = sampled[k].chains[c].kept[i];
-      result.draws.push_back(place.theta);
+      const State& state = sampled[k].chains[c].kept[i];
+      result.draws.push_back(state.theta);
       draw_constants(alternatives[k].fitted, moving, constants, result.draws.back());
-      const double scale = scaled ? density.draw_scale(place, scales) : 1.0;
+      const double scale = scaled ? density.draw_scale(state, scales) : 1.0;
       if (scaled) result.scale.push_back(scale);
-      const std::vector<double> each = density.pointwise(place, scale);
+      const std::vector<double> each = density.pointwise(state, scale);
       result.log_likelihood.push_back(std::accumulate(each.begin(), each.end(), density.shared()));
-      result.log_prior.push_back(density.log_prior(place, scale));
+      result.log_prior.push_back(density.log_prior(state, scale));
       for (std::size_t n = 0; n < result.pointwise.size(); ++n) {
         result.pointwise[n].push_back(each[n]);
       }
@@ -534,11 +535,8 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
     return result;
   }
   result.length = options.length;
-  if (fitted.data.share_errors()) {
-    result.left_out.missing = NoLeaveOneOut::shared_errors;
-  } else if (fitted.data.noise.student) {
-    result.left_out.missing = NoLeaveOneOut::student;
-  }
+  result.left_out.shared_errors = fitted.data.share_errors();
+  result.left_out.unscaled = fitted.data.noise.student.has_value();
   keep_draws(alternatives, sampled, moving, options, result);
   leave_one_out(options.threads, result);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {

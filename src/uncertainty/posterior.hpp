@@ -1,12 +1,8 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
-#include "core/names.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/chains.hpp"
 #include "uncertainty/interval.hpp"
@@ -21,21 +17,6 @@ enum class NoPosterior {
   not_settled,  ///< R-hat is too large or the number of effective draws too small
   few_points,   ///< the noise is unknown, and there are no more points than parameters
 };
-template <>
-struct NamesOf<NoPosterior> {
-  static constexpr std::array<std::string_view, 3> names = {"no_start", "not_settled",
-                                                            "few_points"};
-};
-
-/// The reason for missing leave-one-out densities.
-enum class NoLeaveOneOut {
-  shared_errors,  ///< points share errors, so that a single point has no likelihood of its own
-  student,        ///< the density of robust residuals is known only up to a factor
-};
-template <>
-struct NamesOf<NoLeaveOneOut> {
-  static constexpr std::array<std::string_view, 2> names = {"shared_errors", "student"};
-};
 
 /// One quantity under the posterior.
 struct PosteriorMarginal {
@@ -47,15 +28,18 @@ struct PosteriorMarginal {
 };
 
 /// Leave-one-out cross-validation: the expected log predictive density of each point given the
-/// others.
+/// others. Nothing else is set if one of the first two is true.
 struct LeaveOneOut {
-  std::optional<NoLeaveOneOut> missing;
-  double elpd = 0.0;  ///< sum over the points
+  bool shared_errors = false;  ///< points share errors: one alone has no likelihood
+  bool unscaled = false;       ///< robust residuals: their density is known only up to a factor
+  double elpd = 0.0;           ///< sum over the points
   /// Standard error of elpd: sqrt(n) times the standard deviation over the points.
   double se = 0.0;
   /// Effective number of parameters: sum of ln mean likelihood of the points minus elpd.
   double p_loo = 0.0;
   std::vector<LeftOutPoint> points;
+
+  bool possible() const { return !shared_errors && !unscaled; }
 };
 
 /// Above this shape the smoothed weights of a point are unreliable (Vehtari, Simpson, Gelman, Yao &

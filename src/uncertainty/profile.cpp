@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "estimate/impact_problem.hpp"
-#include "estimate/reweighting.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/refit.hpp"
 
@@ -254,26 +252,6 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
                    : low->at_bound || high->at_bound ? ProfileShape::one_sided
                                                      : ProfileShape::bounded;
   return interval;
-}
-
-double profile_level(const FitResult& fitted, std::size_t slot, double value) {
-  if (!(fitted.noise_scale > 0.0)) return std::nan("");
-  Profile profile(fitted, slot);
-  std::vector<double> others = fitted.theta;
-  const auto rise = profile.rise(value, others);
-  if (!rise) return std::nan("");
-  const double error = free_standard_error(fitted, slot);
-  const ParameterSlot& parameter = fitted.model.slots[slot];
-  const double room = std::min(value - parameter.lower, parameter.upper - value);
-  double height = std::max(*rise, 0.0) / (fitted.noise_scale * fitted.noise_scale);
-  const ConstantErrors constants(fitted, slot);
-  if (height > 0.0) {
-    // z^2 of both errors together: 1 / z^2 = 1 / z_profile^2 + s^2 / d^2.
-    const double ratio = constants.ratio(value);
-    height = 1.0 / (1.0 / height + ratio * ratio);
-  }
-  return level_of_rise(height, degrees_of_freedom(fitted, slot),
-                       error > 0.0 ? room / error : INFINITY);
 }
 
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,

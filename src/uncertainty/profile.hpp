@@ -23,10 +23,6 @@ namespace recoil {
 /// `flat` for both, `bounded` for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);
 
-/// The level at which the profile interval ends at `value`; NaN if the refit there fails.
-/// @pre the slot is free
-double profile_level(const FitResult& fitted, std::size_t slot, double value);
-
 /// The profile of one slot from below `interval` to above it, or to the parameter's bounds: up to
 /// 29 points including the estimate, in ascending order. A side ends where a refit fails; empty
 /// without an interval. @pre the slot is free

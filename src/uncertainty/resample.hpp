@@ -22,11 +22,9 @@ enum class SchemeBecause {
   no_residuals,   ///< parametric: no point rebounded
   shared_errors,  ///< parametric: points share an error, so that single ones cannot be exchanged
 };
-template <>
-struct NamesOf<SchemeBecause> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "asked_for", "sd_stated", "sd_not_stated", "no_residuals", "shared_errors"};
-};
+constexpr auto names_of_values(SchemeBecause) {
+  return name_list("asked_for", "sd_stated", "sd_not_stated", "no_residuals", "shared_errors");
+}
 
 /// The data from which a scheme draws, prepared once for all replicates. Refers to the fit, which
 /// must outlive it.

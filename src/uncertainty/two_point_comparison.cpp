@@ -101,7 +101,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
         root_mean_square(fitted.model, comparison.result.theta, data, fitted.weights, split.all);
   }
   if (split.unseen.empty()) {
-    comparison.nothing_held_out = NothingHeldOut::single_diameter;
+    comparison.nothing_held_out = true;
     return comparison;
   }
   if (answered) {
@@ -114,7 +114,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
     comparison.full_held_out_rmse =
         root_mean_square(fitted.model, on_one.theta, data, fitted.weights, split.unseen);
   } else {
-    comparison.nothing_held_out = NothingHeldOut::refit_failed;
+    comparison.nothing_held_out = true;
     comparison.refit_failure = on_one.failure;
   }
   return comparison;

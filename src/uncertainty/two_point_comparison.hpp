@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -14,26 +12,15 @@
 
 namespace recoil {
 
-/// The reason for a missing held-out comparison.
-enum class NothingHeldOut {
-  single_diameter,  ///< the dataset has a single diameter
-  refit_failed,     ///< the full fit of the calibrated diameter alone failed
-};
-template <>
-struct NamesOf<NothingHeldOut> {
-  static constexpr std::array<std::string_view, 2> names = {"single_diameter", "refit_failed"};
-};
-
 /// The compared methods of estimating the three parameters of the paper's model.
 enum class ComparisonWay {
   two_point,     ///< the paper's iteration, with f0 of eq. 12 or of the fit file
   full,          ///< all points, with the same f0
   full_f0_free,  ///< all points, with f0 fitted
 };
-template <>
-struct NamesOf<ComparisonWay> {
-  static constexpr std::array<std::string_view, 3> names = {"two_point", "full", "full_f0_free"};
-};
+constexpr auto names_of_values(ComparisonWay) {
+  return name_list("two_point", "full", "full_f0_free");
+}
 
 /// The result of one method.
 struct ComparisonRow {
@@ -59,7 +46,8 @@ struct TwoPointComparison {
   double full_rmse = 0.0;               ///< full fit, all points of the dataset [1]
   /// Full fit of that diameter alone, on the other diameters [1].
   std::optional<double> full_held_out_rmse;
-  std::optional<NothingHeldOut> nothing_held_out;
+  /// There is no held-out error of the full fit: the refit failed, or the dataset has one diameter.
+  bool nothing_held_out = false;
   std::string refit_failure;        ///< failure of the full fit of that diameter alone
   long handovers = 0;               ///< FitResult::handovers of the fits for this comparison
   std::vector<ComparisonRow> rows;  ///< two points, all points, all points with f0 free

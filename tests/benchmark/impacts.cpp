@@ -104,11 +104,11 @@ void run_reference(const std::vector<ImpactGroups>& impacts, AdhesionLaw law, bo
 }
 
 Json describe_impacts(const std::vector<ImpactGroups>& impacts) {
-  std::vector<ImpactResult> fast;
+  ImpactOptions options;
+  options.gradient = true;
+  std::vector<ImpactResult> fast(impacts.size());
   std::vector<ImpactResult> reference;
-  const long handovers_before = reference_handovers();
-  run_fast(impacts, AdhesionLaw::ring, true, fast);
-  const long handovers = reference_handovers() - handovers_before;
+  const long handovers = simulate_impacts_fast(impacts, options, fast);
   run_reference(impacts, AdhesionLaw::ring, true, reference);
 
   std::vector<double> velocity, alpha, gamma;

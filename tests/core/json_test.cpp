@@ -13,14 +13,7 @@ namespace {
 
 enum class Colour { red, green };
 
-}  // namespace
-
-template <>
-struct NamesOf<Colour> {
-  static constexpr std::array<std::string_view, 2> names = {"red", "green"};
-};
-
-namespace {
+constexpr auto names_of_values(Colour) { return name_list("red", "green"); }
 
 struct Ball {
   std::string name;

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "data/dataset.hpp"
-#include "report/words_dataset.hpp"
+#include "report/dataset_report.hpp"
 #include "support/dataset_folder.hpp"
 
 namespace recoil {

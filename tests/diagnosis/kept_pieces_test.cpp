@@ -57,7 +57,8 @@ TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
   const std::size_t all = kept->size();
   std::set<std::size_t> kinds;
   for (const std::size_t piece : kept->pieces()) kinds.insert(piece / first_beside_calibration);
-  EXPECT_EQ(kinds, (std::set<std::size_t>{0, 4, 5, 6})) << "calibration, singles, looks, pairs";
+  EXPECT_EQ(kinds, (std::set<std::size_t>{0, 4, 5, 6}))
+      << "calibration, singles, screenings, pairs";
   EXPECT_TRUE(answer(kept) == expected);
   EXPECT_EQ(kept->size(), all);
 
@@ -96,7 +97,7 @@ TEST(KeptPieces, HaveNumbersOfTheirOwn) {
   DiagnosisOptions options;
   for (const std::size_t first : {std::size_t{0}, options.pieces()}) {  // without outlying points
     options.first_piece = first;
-    for (const KeptPiece kind : {KeptPiece::single, KeptPiece::look, KeptPiece::pair}) {
+    for (const KeptPiece kind : {KeptPiece::single, KeptPiece::screening, KeptPiece::pair}) {
       for (std::size_t k = 0; k < 1000; ++k) numbers.insert(number_of(options, kind, k));
     }
   }

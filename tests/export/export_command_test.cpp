@@ -255,6 +255,25 @@ TEST(Export, AStockModelIsGivenWhatTheProgramTakesOrNothing) {
   }
 }
 
+// LIGGGHTS 3.8.0: "youngsModulus >= 5e6 required for SI units (use command 'soft_particles yes' to
+// override)". The stiffness of both bodies is that of E* = E / (2 (1 - nu^2)) with nu = 1/4: a gel
+// with E = 1e5 Pa and nu = 0.49 on a rigid surface has E* = 1e5 Pa / (1 - 0.49^2).
+TEST(Export, LiggghtsIsToldThatASphereIsSoft) {
+  const Workplace place;
+  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4", "--replicates", "0"}).status, 0);
+  EXPECT_EQ(place.read("out/impact.liggghts").find("\nsoft_particles"), std::string::npos);
+  EXPECT_NE(place.read("out/impact.liggghts").find("\nhard_particles yes"), std::string::npos);
+  place.change("data/datapackage.json", "\"youngs_modulus\": 2.56e9, \"poisson_ratio\": 0.35",
+               "\"youngs_modulus\": 1e5, \"poisson_ratio\": 0.49");
+  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4", "--replicates", "0"}).status, 0);
+  const std::string text = place.read("out/impact.liggghts");
+  EXPECT_NE(text.find("\nsoft_particles yes"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\nhard_particles"), std::string::npos) << text;
+  const std::string before = "youngsModulus peratomtype ";
+  EXPECT_NEAR(std::stod(text.substr(text.find(before) + before.size())),
+              2.0 * (1.0 - 1.0 / 16.0) * 1e5 / (1.0 - 0.49 * 0.49), 1.0);
+}
+
 TEST(Export, MistakesAreOneLineAndWriteNothing) {
   const Workplace place;
   place.write("taken", "a file");

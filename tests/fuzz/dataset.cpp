@@ -8,7 +8,7 @@
 #include <string>
 
 #include "check.hpp"
-#include "report/words_dataset.hpp"
+#include "report/dataset_report.hpp"
 
 namespace {
 

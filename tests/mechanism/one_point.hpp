@@ -51,6 +51,7 @@ struct Answer {
   bool usable = false;
   double square = 0.0;
   std::vector<double> slopes;
+  long handed_over = 0;  ///< impacts that the reference solver solved
 };
 
 inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
@@ -65,8 +66,8 @@ inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
   options.adhesion = at.adhesion;
   options.phase = at.phase;
   options.gradient = gradient;
-  impacts.evaluate(values, options, simulate_impacts_fast);
   Answer answer;
+  answer.handed_over = impacts.evaluate(values, options, simulate_impacts_fast);
   const ImpactOutcome outcome = impacts.at(0).outcome;
   answer.usable = outcome == ImpactOutcome::rebound || outcome == ImpactOutcome::captured;
   answer.square = impacts.at(0).restitution_squared;

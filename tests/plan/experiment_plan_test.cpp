@@ -17,7 +17,6 @@
 namespace {
 
 using recoil::ExperimentPlan;
-using recoil::PlannedKind;
 using recoil::PlannedQuantity;
 using recoil::PlannedSetting;
 using recoil::PlanOptions;
@@ -60,7 +59,7 @@ const PlannedQuantity& quantity(const ExperimentPlan& plan, const std::string& l
 
 const PlannedQuantity& capture(const ExperimentPlan& plan, double diameter) {
   for (const PlannedQuantity& one : plan.quantities) {
-    if (one.kind == PlannedKind::capture_velocity && one.diameter == diameter) return one;
+    if (!one.is_parameter() && one.diameter == diameter) return one;
   }
   throw std::out_of_range("capture velocity");
 }

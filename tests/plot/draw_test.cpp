@@ -249,14 +249,14 @@ TEST(DrawLayers, EveryOtherKind) {
   framed.plots.front().frame = Frame{40.0, 440.0, 40.0, 340.0};
   ASSERT_EQ(painted(draw_svg(framed), "#112233").size(), 1U);
   EXPECT_EQ(painted(draw_svg(framed), "#112233")[0].path, "M140 0H240V300H140z");
-  framed.plots.front().layers = {Rule{Direction::vertical, 2.0, {"#112233", 1.0}},
-                                 Rule{Direction::horizontal, 1.0, {"#445566", 1.0}}};
+  framed.plots.front().layers = {Rule{.at = 2.0, .stroke = {"#112233", 1.0}},
+                                 Rule{.vertical = false, .at = 1.0, .stroke = {"#445566", 1.0}}};
   EXPECT_EQ(painted(draw_svg(framed), "#112233")[0].path, "M240 300V0");
   EXPECT_EQ(painted(draw_svg(framed), "#445566")[0].path, "M40 225H440");
   // A logarithmic axis: the middle of 1 and 100 is 10.
   framed.plots.front().x.logarithmic = true;
   framed.plots.front().x.set_range({1.0, 100.0});
-  framed.plots.front().layers = {Rule{Direction::vertical, 10.0, {"#112233", 1.0}}};
+  framed.plots.front().layers = {Rule{.at = 10.0, .stroke = {"#112233", 1.0}}};
   EXPECT_EQ(painted(draw_svg(framed), "#112233")[0].path, "M240 300V0");
   const Words words{"said here", on_axis(1.0), share_of_plot(0.5)};
   EXPECT_THAT(draw_svg(picture_with(words)), HasSubstr(">said here<"));

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <limits>
 
+#include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
 #include "support/dataset_folder.hpp"
 

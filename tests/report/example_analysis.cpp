@@ -67,7 +67,6 @@ IntervalSet interval_set(double estimate, double error) {
   set[IntervalKind::bca] = between(estimate - 1.83 * error, estimate + 2.08 * error);
   set[IntervalKind::studentized] = no_interval(NoInterval::no_standard_error);
   set.recommended = IntervalKind::profile;
-  set.because = RecommendedBecause::noise_stated;
   return set;
 }
 

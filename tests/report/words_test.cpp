@@ -1,10 +1,11 @@
 // Every fact has words, and no two facts of a kind have the same.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "example_analysis.hpp"
-#include "report/prediction_report.hpp"
+#include "report/words_candidate.hpp"
 #include "report/words_diagnosis.hpp"
 #include "report/words_fit.hpp"
 
@@ -30,11 +31,6 @@ TEST(Words, EveryFactHasItsOwn) {
     interval.note = IntervalNote{caution, 1.0};
     return plain_text(note_words(interval, "C_A"));
   });
-  expect_words_for_all<RecommendedBecause>([](RecommendedBecause because) {
-    IntervalSet set;
-    set.because = because;
-    return recommended_words(set);
-  });
   expect_words_for_all<CaptureBecause>([](CaptureBecause because) {
     CaptureEstimate capture;
     capture.because = because;
@@ -45,11 +41,6 @@ TEST(Words, EveryFactHasItsOwn) {
     bootstrap.because = because;
     return scheme_words(bootstrap);
   });
-  expect_words_for_all<NothingHeldOut>([](NothingHeldOut why) {
-    TwoPointComparison comparison;
-    comparison.nothing_held_out = why;
-    return held_out_words(comparison);
-  });
   expect_words_for_all<StructureQuestion>(
       [](StructureQuestion question) { return words_of(question); });
   expect_words_for_all<SetAside>([](SetAside why) {
@@ -57,8 +48,27 @@ TEST(Words, EveryFactHasItsOwn) {
     candidate.set_aside = why;
     return set_aside_words(candidate);
   });
-  expect_words_for_all<CaptureModel>([](CaptureModel model) { return words_of(model); });
-  expect_words_for_all<CaptureConvention>([](CaptureConvention c) { return words_of(c); });
+}
+
+TEST(Words, OfTheRecommendedInterval) {
+  IntervalSet set;
+  set.recommended = IntervalKind::profile;
+  EXPECT_EQ(recommended_words(set), "profile likelihood");
+  set.student = true;
+  EXPECT_THAT(recommended_words(set), testing::HasSubstr("Student"));
+  set.recommended = IntervalKind::wald;
+  set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
+  EXPECT_EQ(recommended_words(set),
+            "there is no profile: " + missing_words(no_interval(NoInterval::refit_failed)));
+}
+
+TEST(Words, WhyNoDiameterIsHeldOut) {
+  TwoPointComparison comparison;
+  EXPECT_EQ(held_out_words(comparison), "");
+  comparison.nothing_held_out = true;
+  EXPECT_THAT(held_out_words(comparison), testing::HasSubstr("single diameter"));
+  comparison.refit_failure = "too few points";
+  EXPECT_THAT(held_out_words(comparison), testing::HasSubstr("failed: too few points"));
 }
 
 TEST(Words, OfAnImpossibleParameter) {
@@ -68,13 +78,14 @@ TEST(Words, OfAnImpossibleParameter) {
   parameter.label = "surface_field";
   parameter.unit = "V/m";
   parameter.value = 2e8;
+  parameter.upper = 1e8;
+  parameter.range_why = "no charge is larger";
+  EXPECT_EQ(implausible_words(parameter), "");
+  parameter.implausible = true;
+  EXPECT_EQ(implausible_words(parameter),
+            "surface_field = 2e+08 V/m lies outside 0 to 1e+08: no charge is larger");
   parameter.limit = &limit;
   parameter.quantity = 2.071;
-  expect_words_for_all<Implausible>([&](Implausible why) {
-    parameter.implausible = why;
-    return implausible_words(parameter);
-  });
-  parameter.implausible = Implausible::beyond_limit;
   EXPECT_EQ(implausible_words(parameter),
             "surface_field = 2e+08 V/m: the field over that of breakdown would be 2.1, but is at "
             "most 1: air sparks");

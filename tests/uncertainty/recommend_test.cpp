@@ -53,13 +53,12 @@ std::optional<Disagreement> disagreement(const Example& example) {
 TEST(Recommend, ProfileThenPercentileThenWald) {
   IntervalSet set = agreeing().sets[0];
   EXPECT_EQ(set.recommended, IntervalKind::profile);
-  EXPECT_EQ(set.because, RecommendedBecause::noise_stated);
+  EXPECT_FALSE(set.student);
   recommend(set, false);
-  EXPECT_EQ(set.because, RecommendedBecause::noise_estimated);
+  EXPECT_TRUE(set.student);
   set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
   recommend(set, true);
   EXPECT_EQ(set.recommended, IntervalKind::percentile);
-  EXPECT_EQ(set.because, RecommendedBecause::no_profile);
   set[IntervalKind::percentile] = Interval{};
   recommend(set, true);
   EXPECT_EQ(set.recommended, IntervalKind::wald);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -18,10 +16,7 @@ enum class GridNoise {
   proportional,  ///< 10 % of e
 };
 
-template <>
-struct NamesOf<GridNoise> {
-  static constexpr std::array<std::string_view, 3> names = {"equal", "near-capture", "10 %"};
-};
+constexpr auto names_of_values(GridNoise) { return name_list("equal", "near-capture", "10 %"); }
 
 /// One kind of data set that people bring: points of one diameter, evenly spaced in log V from just
 /// above the capture velocity (below it, where there are captures) to fifty times that.

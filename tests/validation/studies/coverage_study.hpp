@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -59,11 +58,9 @@ enum class CoverageVerdict {
   too_narrow,
   too_wide
 };
-template <>
-struct NamesOf<CoverageVerdict> {
-  static constexpr std::array<std::string_view, 5> names = {"nominal", "nominal, warned", "warned",
-                                                            "too narrow", "too wide"};
-};
+constexpr auto names_of_values(CoverageVerdict) {
+  return name_list("nominal", "nominal, warned", "warned", "too narrow", "too wide");
+}
 inline constexpr double least_nominal = 0.93, most_nominal = 0.97;
 inline constexpr double least_warned = 0.90;  ///< share of the data sets
 

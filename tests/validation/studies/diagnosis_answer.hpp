@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/json.hpp"
@@ -66,6 +64,11 @@ enum class Mark {
   outside,      ///< `not_separable`, but what is hidden is not listed
   failed,       ///< the command gave no answer
 };
+constexpr auto names_of_values(Mark) {
+  return name_list("adequate", "unexplained", "unexplained, shape recognised", "named",
+                   "one of several named", "wrong cause named", "not separable, listed",
+                   "not separable, not listed", "no answer");
+}
 Mark mark_of(const Answered& answered);
 
 /// Fits every other mechanism (base parameters free) to the case without noise. What leaves less
@@ -92,16 +95,3 @@ Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
              const std::filesystem::path& keep, bool baseline = false);
 
 }  // namespace recoil::hidden
-
-template <>
-struct recoil::NamesOf<recoil::hidden::Mark> {
-  static constexpr std::array<std::string_view, 9> names = {"adequate",
-                                                            "unexplained",
-                                                            "unexplained, shape recognised",
-                                                            "named",
-                                                            "one of several named",
-                                                            "wrong cause named",
-                                                            "not separable, listed",
-                                                            "not separable, not listed",
-                                                            "no answer"};
-};

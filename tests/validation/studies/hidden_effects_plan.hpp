@@ -51,6 +51,11 @@ enum class Arm {
   rounded,         ///< drops of which heights or times of flight are read to a finite step
   odd              ///< a few points are misread
 };
+constexpr auto names_of_values(Arm) {
+  return name_list("effect", "correct", "pair", "outside", "single", "careless", "bent",
+                   "bent_more", "other_law", "other_adhesive", "base_bent", "impossible", "stated",
+                   "varied", "loop", "dropped", "settings", "rounded", "odd");
+}
 Arm arm_of(const CaseOrder& order);
 
 /// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a
@@ -58,11 +63,3 @@ Arm arm_of(const CaseOrder& order);
 std::vector<CaseOrder> plan_study(const StudySize& size);
 
 }  // namespace recoil::hidden
-
-template <>
-struct recoil::NamesOf<recoil::hidden::Arm> {
-  static constexpr std::array<std::string_view, 19> names = {
-      "effect",    "correct",   "pair",           "outside",   "single",     "careless", "bent",
-      "bent_more", "other_law", "other_adhesive", "base_bent", "impossible", "stated",   "varied",
-      "loop",      "dropped",   "settings",       "rounded",   "odd"};
-};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -12,10 +11,9 @@
 namespace recoil {
 
 enum class PairingTable { crowding, number, instruments };
-template <>
-struct NamesOf<PairingTable> {
-  static constexpr std::array<std::string_view, 3> names = {"crowding", "number", "instruments"};
-};
+constexpr auto names_of_values(PairingTable) {
+  return name_list("crowding", "number", "instruments");
+}
 
 /// The pairing of one simulated stream beside its truth. Shares in [0, 1], lengths in m.
 struct PairingRow {

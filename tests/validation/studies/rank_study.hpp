@@ -14,11 +14,9 @@ namespace recoil {
 
 /// Of what kind the simulated data are.
 enum class RankArm { stated_noise, estimated_noise, captures, uncertain_constants };
-template <>
-struct NamesOf<RankArm> {
-  static constexpr std::array<std::string_view, 4> names = {"stated_noise", "estimated_noise",
-                                                            "captures", "uncertain_constants"};
-};
+constexpr auto names_of_values(RankArm) {
+  return name_list("stated_noise", "estimated_noise", "captures", "uncertain_constants");
+}
 inline constexpr std::array rank_arms = values_of<RankArm>();
 
 /// Ammonium fluorescein on molybdenum (Li, Dunn & Brach 1999, Table 1), without points.

@@ -38,10 +38,7 @@ enum class StudyState {
   stale,  ///< made from other sources, fits or data than those that are there
   current
 };
-template <>
-struct NamesOf<StudyState> {
-  static constexpr std::array<std::string_view, 3> names = {"missing", "stale", "current"};
-};
+constexpr auto names_of_values(StudyState) { return name_list("missing", "stale", "current"); }
 StudyState state_of(const std::filesystem::path& root, const Study& study);
 
 /// Writes NAME.md, and NAME.svg where there is a picture, beside the study NAME.json.

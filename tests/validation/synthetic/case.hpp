@@ -17,6 +17,7 @@ enum class Circumstances {
   stated,  ///< of all points, those behind the effects
   varied  ///< not of these, but the same rows again under a change that takes the first effect away
 };
+constexpr auto names_of_values(Circumstances) { return name_list("unstated", "stated", "varied"); }
 
 /// What to make. Equal orders give equal digits.
 struct CaseOrder {
@@ -99,8 +100,3 @@ class ScratchFolder {
 };
 
 }  // namespace recoil::hidden
-
-template <>
-struct recoil::NamesOf<recoil::hidden::Circumstances> {
-  static constexpr std::array<std::string_view, 3> names = {"unstated", "stated", "varied"};
-};

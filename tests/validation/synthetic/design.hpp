@@ -25,6 +25,9 @@ struct Row {
 
 /// How drops are read: exactly, or rounded to a step of a height or of a time of flight.
 enum class Readout { exact, millimetre, five_millimetres, millisecond, frame };
+constexpr auto names_of_values(Readout) {
+  return name_list("exact", "millimetre", "five_millimetres", "millisecond", "frame");
+}
 
 /// A possible experiment, drawn by seed around a real one.
 struct Design {
@@ -82,9 +85,3 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
 double capture_velocity(const Base& base, const Effects& effects, double diameter, double highest);
 
 }  // namespace recoil::hidden
-
-template <>
-struct recoil::NamesOf<recoil::hidden::Readout> {
-  static constexpr std::array<std::string_view, 5> names = {
-      "exact", "millimetre", "five_millimetres", "millisecond", "frame"};
-};

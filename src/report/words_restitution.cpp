@@ -1,0 +1,138 @@
+#include "report/words_restitution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/format.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_series = 4;  // listed in a sentence
+constexpr double shown_level = 0.05;    // a smaller p-value is reported as a difference
+
+/// The name of a series, with its size if its name is not unique, and with its dataset if there are
+/// several.
+std::string series_words(const RestitutionMean& mean, const RestitutionSummary& summary,
+                         const std::vector<Dataset>& datasets) {
+  const Dataset& dataset = datasets[mean.dataset];
+  std::string name = dataset.series[mean.series];
+  const auto same =
+      std::count_if(summary.means.begin(), summary.means.end(), [&](const RestitutionMean& other) {
+        return !other.velocity && other.dataset == mean.dataset && other.series == mean.series;
+      });
+  if (same > 1) name += " " + diameter_words(mean.diameter);
+  return datasets.size() > 1 ? fmt::format("{} of {}", name, dataset.id) : name;
+}
+
+bool spans_a_decade(const RestitutionSummary& summary) {
+  return summary.velocities[1] >= 10.0 * summary.velocities[0];
+}
+
+Sentence mean_words(const RestitutionMean& mean) {
+  Number value{mean.value, padded(3)};
+  if (mean.interval) value.band = {(*mean.interval)[0], (*mean.interval)[1]};
+  return value.words();
+}
+
+Sentence ends_words(const TestedEffect& effect, double sign) {
+  const double a = sign * (*effect.interval)[0];
+  const double b = sign * (*effect.interval)[1];
+  return say("[{:.2g}, {:.2g}]", std::min(a, b), std::max(a, b));
+}
+
+/// The dependence of e on V. If V spans a decade, the sentence includes the range of e.
+Sentence dependence_words(const RestitutionSummary& summary) {
+  const TestedEffect& effect = summary.velocity;
+  if (!effect.p_value) {
+    std::string why = effect.why;
+    why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
+    return say("{}: the dependence of {e} on {V} is unknown.", why);
+  }
+  const std::string p = p_words(*effect.p_value);
+  const bool steady = *effect.p_value < shown_level;
+  const bool bent = summary.bend.value_or(1.0) < shown_level;
+  if (!steady && !bent) {
+    return say("No dependence of {e} on {V} is detected: {:.2g} {} per decade of {V} ({}).",
+               *effect.value, ends_words(effect, 1.0), p);
+  }
+  const double sign = *effect.value < 0.0 ? -1.0 : 1.0;
+  const char* const goes = sign < 0.0 ? "falls" : "rises";
+  const Sentence slope =
+      say("by {:.2g} {} per decade of {V} ({})", sign * *effect.value, ends_words(effect, sign), p);
+  const Sentence no_slope =
+      say("without a steady rise or fall ({})", p_words(summary.bend.value_or(1.0)));
+  if (!spans_a_decade(summary)) {
+    return steady ? say("{e} {} {}.", goes, slope) : say("{e} varies with {V}, {}.", no_slope);
+  }
+  const Sentence range =
+      say("{e} depends on {V}: {:.3f} to {:.3f} for {V} = {:.3g} to {:.3g} m/s", summary.values[0],
+          summary.values[1], summary.velocities[0], summary.velocities[1]);
+  return steady ? range + say("; it {} {}.", goes, slope) : range + say(", {}.", no_slope);
+}
+
+}  // namespace
+
+std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
+                                            const std::vector<Dataset>& datasets) {
+  std::vector<Sentence> means;
+  double least = INFINITY, most = 0.0;
+  for (const RestitutionMean& mean : summary.means) {
+    if (mean.velocity) continue;
+    least = std::min(least, mean.value);
+    most = std::max(most, mean.value);
+    const std::string count =
+        fmt::format(" ({} point{})", mean.points, mean.points == 1 ? "" : "s");
+    means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
+                                                 mean_words(mean), count)
+                                           : mean_words(mean) + count);
+  }
+  if (means.empty()) return {};
+  std::vector<Sentence> sentences;
+  const bool depends = summary.velocity.p_value.value_or(1.0) < shown_level ||
+                       summary.bend.value_or(1.0) < shown_level;
+  if (!depends || !spans_a_decade(summary)) {
+    sentences.push_back(means.size() > most_series ? say("Mean {e} of {} series: {:.3f} to {:.3f}.",
+                                                         means.size(), least, most)
+                                                   : say("Mean {e}: {}.", join(means, "; ")));
+  }
+  sentences.push_back(dependence_words(summary));
+  const TestedEffect& differ = summary.series;
+  if (differ.p_value) {
+    const std::string p = p_words(*differ.p_value);
+    const auto name = [&](std::size_t k) {
+      return series_words(summary.means[summary.most_different[k]], summary, datasets);
+    };
+    if (*differ.p_value >= shown_level) {
+      sentences.push_back(say("No difference between the series is detected ({}).", p));
+    } else if (means.size() > most_series) {
+      sentences.push_back(say("The series differ in {e} ({}), by up to {:.2g}.", p, *differ.value));
+    } else {
+      sentences.push_back(say("The series differ in {e} ({}): {} and {} by {:.2g} {}.", p, name(0),
+                              name(1), *differ.value, ends_words(differ, 1.0)));
+    }
+  }
+  return sentences;
+}
+
+Table restitution_table(const RestitutionSummary& summary, const std::vector<Dataset>& datasets) {
+  Table table;
+  if (summary.means.size() < 2) return table;
+  const SizeUnit sizes = size_unit(datasets);
+  table.caption = say("Mean {e} of every series and setting, with 95 % intervals");
+  table.columns = {{"series", "", true},  {say("{d}"), sizes.name},
+                   {"setting", "", true}, {say("{V}"), "m/s"},
+                   {say("{e}")},          {"points"}};
+  for (const RestitutionMean& mean : summary.means) {
+    table.rows.push_back({Sentence(datasets[mean.dataset].series[mean.series]),
+                          Sentence(size_text(mean.diameter, sizes)),
+                          mean.setting.empty() ? Cell() : Cell(Sentence(mean.setting)),
+                          mean.velocity ? Cell(Number{*mean.velocity, significant(4)}) : Cell(),
+                          mean_words(mean), whole(mean.points)});
+  }
+  return table;
+}
+
+}  // namespace recoil
