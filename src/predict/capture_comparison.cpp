@@ -12,6 +12,7 @@
 #include "estimate/predictor.hpp"
 #include "predict/capture_models.hpp"
 #include "predict/polydisperse.hpp"
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 

@@ -12,6 +12,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 namespace {
