@@ -451,7 +451,7 @@ void keep_draws(const std::vector<NoiseAlternative>& alternatives,
 
 void leave_one_out(int threads, PosteriorResult& result) {
   LeaveOneOut& out = result.left_out;
-  if (out.missing) return;
+  if (!out.possible()) return;
   out.points.resize(result.pointwise.size());
   std::vector<double> elpd(out.points.size()), in_sample(out.points.size());
   parallel_over(out.points.size(), threads, [&](std::size_t i) {
