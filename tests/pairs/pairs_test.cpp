@@ -1,0 +1,456 @@
+// Every pair of features of a fit, in fits that have one form of each: what must always hold.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "analysis/analysis.hpp"
+#include "core/error.hpp"
+#include "coverage/coverage_truth.hpp"
+#include "covering_array.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
+#include "estimate/two_point.hpp"
+#include "made_points.hpp"
+#include "report/fit_report.hpp"
+#include "report/result_json.hpp"
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+#include "uncertainty/resample.hpp"
+
+namespace recoil {
+namespace {
+
+using pairs::Choice;
+using pairs::Pair;
+using support::TemporaryFolder;
+
+constexpr unsigned seed_of_the_table = 1;
+
+/// The pairs that no fit of the table has.
+std::vector<Pair> missing_pairs() {
+  std::vector<Pair> missing = pairs::refused_pairs();
+  const std::vector<Pair>& left_out = pairs::pairs_left_out();
+  missing.insert(missing.end(), left_out.begin(), left_out.end());
+  return missing;
+}
+
+const std::vector<Choice>& table() {
+  static const std::vector<Choice> choices =
+      pairs::covering_array(pairs::features(), missing_pairs(), seed_of_the_table);
+  return choices;
+}
+
+Analysis analysed(const std::filesystem::path& folder, int threads) {
+  AnalysisOptions options;
+  options.threads = threads;
+  return analyse(load_inputs(folder / "fit.toml"), options);
+}
+
+TEST(TableOfPairs, HoldsEveryPairButThoseThatAreNamed) {
+  const std::vector<Pair> missing = missing_pairs();
+  for (const Pair& pair : pairs::all_pairs(pairs::features())) {
+    const bool is_missing = std::find(missing.begin(), missing.end(), pair) != missing.end();
+    const bool occurs = std::any_of(table().begin(), table().end(),
+                                    [&](const Choice& choice) { return pairs::has(choice, pair); });
+    EXPECT_NE(occurs, is_missing) << pair.first.feature << " " << pair.first.form << ", "
+                                  << pair.second.feature << " " << pair.second.form;
+  }
+  EXPECT_GE(table().size(), 40U);
+}
+
+TEST(TableOfPairs, RefusedPairsAreRefusedInOneLine) {
+  for (const Pair& pair : pairs::refused_pairs()) {
+    Choice choice = pairs::plain_choice();
+    choice[pair.first.feature] = pair.first.form;
+    choice[pair.second.feature] = pair.second.form;
+    SCOPED_TRACE(pairs::words_of(choice));
+    const TemporaryFolder folder;
+    pairs::write_fit(choice, folder.path());
+    try {
+      analysed(folder.path(), 1);
+      ADD_FAILURE() << "not refused";
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// One fit of the table.
+struct Made {
+  Choice choice;
+  std::filesystem::path folder;
+  std::optional<Analysis> analysis;
+  std::string failure;  ///< without an answer
+};
+
+class Pairs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    place_ = new TemporaryFolder;
+    made_ = new std::vector<Made>;
+    for (const Choice& choice : table()) {
+      Made made{choice, place_->path() / std::to_string(made_->size()), {}, {}};
+      pairs::write_fit(choice, made.folder);
+      try {
+        made.analysis = analysed(made.folder, 1);
+        support::write_text(made.folder / "fit.json", fit_json(*made.analysis));
+      } catch (const ComputationError& error) {
+        made.failure = error.what();
+      }
+      made_->push_back(std::move(made));
+    }
+  }
+  static void TearDownTestSuite() {
+    delete made_;
+    delete place_;
+  }
+
+  static const std::vector<Made>& all() { return *made_; }
+  static std::vector<const Made*> answered() {
+    std::vector<const Made*> usable;
+    for (const Made& made : all()) {
+      if (made.analysis) usable.push_back(&made);
+    }
+    return usable;
+  }
+  static const TemporaryFolder& place() { return *place_; }
+
+ private:
+  inline static TemporaryFolder* place_ = nullptr;
+  inline static std::vector<Made>* made_ = nullptr;
+};
+
+TEST_F(Pairs, EndWithAnAnswerOrAReason) {
+  for (const Made& made : all()) {
+    SCOPED_TRACE(pairs::words_of(made.choice));
+    EXPECT_TRUE(made.analysis || made.failure.find("no usable answer: ") != std::string::npos)
+        << made.failure;
+  }
+  EXPECT_GE(answered().size(), table().size() * 9 / 10);
+}
+
+/// The curve of a two-point calibration that converged goes through its two points.
+void expect_on_curve(const ImpactModel& model, const Observations& data,
+                     const TwoPointResult& two) {
+  for (const std::size_t i : {two.low_point, two.high_point}) {
+    const Observation& point = data.points[i];
+    const Prediction at = predict(model, two.theta, {point.conditions()}, false).front();
+    ASSERT_TRUE(at.usable());
+    EXPECT_NEAR(at.restitution(), point.restitution, 1e-5) << "at " << point.velocity << " m/s";
+  }
+}
+
+TEST_F(Pairs, TwoPointsLieOnTheirCurve) {
+  int compared = 0;
+  for (const Made* made : answered()) {
+    SCOPED_TRACE(pairs::words_of(made->choice));
+    for (const TwoPointComparison& comparison : made->analysis->uncertainty.two_point) {
+      if (comparison.result.status != TwoPointStatus::converged) continue;
+      const FitResult& fitted = made->analysis->fitted;
+      expect_on_curve(fitted.model, fitted.data, comparison.result);
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 15);
+}
+
+// A whole fit with these laws takes minutes.
+TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
+  for (const char* law : {"dmt", "maugis"}) {
+    for (const char* mechanism : {"none", "gas_film", "plastic_yield", "velocity_offset"}) {
+      for (const char* sizes : {"one", "several", "mixed", "two spheres"}) {
+        Choice choice = pairs::plain_choice();
+        choice["law"] = law;
+        choice["mechanism"] = mechanism;
+        choice["sizes"] = sizes;
+        const Pair flat = pairs::pair_of({"mechanism", "gas_film"}, {"sizes", "two spheres"});
+        if (pairs::has(choice, flat)) continue;
+        SCOPED_TRACE(pairs::words_of(choice));
+        const TemporaryFolder folder;
+        pairs::write_fit(choice, folder.path());
+        const FitInputs inputs = load_inputs(folder / "fit.toml");
+        const ImpactModel model = make_model(inputs.spec, inputs.datasets);
+        const Observations data = gather(inputs.datasets, inputs.spec);
+        const TwoPointResult two = two_point(model, data, 0, model.contacts[0].reference_diameter);
+        ASSERT_EQ(two.status, TwoPointStatus::converged);
+        expect_on_curve(model, data, two);
+      }
+    }
+  }
+}
+
+/// Does an interval end within the bounds of its parameter?
+bool within_bounds(const Interval& interval, const ParameterSlot& slot) {
+  const double margin = 1e-6 * (slot.upper - slot.lower);
+  return *interval.lower > slot.lower + margin && *interval.upper < slot.upper - margin;
+}
+
+/// The largest ratio of two widths of one parameter. Percentiles of 39 replicates are their
+/// extremes, whose distance is 4.3 +- 0.7 standard deviations (1.5 times too short or long);
+/// Student's t with five degrees of freedom widens Wald and profile 1.3 times; residuals of ten
+/// points and three parameters are 1.2 times too small; and skewness makes a factor of 1.7. Whole
+/// series or points are five to twelve units, whose spread is known to a further factor of two.
+double largest_ratio(const std::string& scheme) {
+  return scheme == "case" || scheme == "cluster" ? 8.0 : 4.0;
+}
+
+/// The wild scheme has one sign for each setting that shares an error. A fit of four settings
+/// passes nearly through their means, so that the signs change nothing: these intervals are too
+/// narrow.
+bool has_too_few_signs(const Choice& choice) {
+  return choice.at("scheme") == "wild" &&
+         (choice.at("setting") != "no" || choice.at("setting_velocity_sd") == "yes");
+}
+
+// Of parameters that are known to better than a quarter, beside none that rests on a bound: other
+// intervals end at bounds or are skewed.
+TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
+  int compared = 0;
+  for (const Made* made : answered()) {
+    const FitResult& fitted = made->analysis->fitted;
+    if (std::ranges::find(fitted.at_bound, true) != fitted.at_bound.end()) continue;
+    if (has_too_few_signs(made->choice)) continue;
+    for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+      const ParameterSlot& slot = fitted.model.slots[j];
+      const IntervalSet& intervals = made->analysis->uncertainty.intervals[j];
+      if (!slot.free) continue;
+      if (!(fitted.std_error[j] < 0.25 * std::abs(fitted.theta[j]))) continue;
+      std::vector<double> widths;
+      for (const IntervalKind kind :
+           {IntervalKind::wald, IntervalKind::profile, IntervalKind::percentile}) {
+        const Interval& interval = intervals[kind];
+        if (!interval.available() || !within_bounds(interval, slot)) continue;
+        widths.push_back(*interval.upper - *interval.lower);
+      }
+      if (widths.size() < 2) continue;
+      const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
+      EXPECT_LT(*most, *least * largest_ratio(made->choice.at("scheme")))
+          << slot.label() << " of " << made->folder << ": " << pairs::words_of(made->choice);
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 15);
+}
+
+/// The scatter of simulated residuals that the weights of a fit whiten.
+class WhiteScatter {
+ public:
+  explicit WhiteScatter(const FitResult& fitted) : fitted_(fitted) {
+    const auto& points = fitted.data.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // Near capture the residual of a simulated point is not normal.
+      const bool plain =
+          !points[i].censored && !(points[i].weights.scatter > 0.0) && fitted.prediction[i] > 0.5;
+      if (plain) used_.push_back(i);
+    }
+    const Observations subset = fitted.data.subset(used_);
+    sources_.emplace(subset.points);
+    sums_.assign(used_.size(), 0.0);
+    squares_.assign(used_.size(), 0.0);
+  }
+
+  std::size_t points() const { return used_.size(); }
+
+  /// Adds the simulated e of every point about these e^2.
+  template <class Restitution>
+  void add(const Restitution& restitution, std::span<const double> squares) {
+    std::vector<double> residuals;
+    for (const std::size_t i : used_) {
+      Observation point = fitted_.data.points[i];
+      point.restitution = restitution(i);
+      residuals.push_back(weighted_residual(point, squares[i]).value);
+    }
+    sources_->whiten(residuals);
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      sums_[k] += residuals[k];
+      squares_[k] += residuals[k] * residuals[k];
+    }
+    ++count_;
+  }
+
+  /// Mean variance of the whitened residuals [1].
+  double mean_variance() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < used_.size(); ++k) {
+      sum += (squares_[k] - sums_[k] * sums_[k] / count_) / (count_ - 1.0);
+    }
+    return sum / static_cast<double>(used_.size());
+  }
+
+  /// Five standard deviations of the mean of so many squares of unit normals, and 2 % for what the
+  /// weights neglect to second order.
+  double tolerance() const {
+    return 5.0 * std::sqrt(2.0 / (count_ * static_cast<double>(used_.size()))) + 0.02;
+  }
+
+ private:
+  const FitResult& fitted_;
+  std::vector<std::size_t> used_;
+  std::optional<SharedSettings> sources_;
+  std::vector<double> sums_, squares_;
+  double count_ = 0.0;
+};
+
+constexpr std::uint64_t simulated_sets = 200;
+
+/// Fits whose standard deviations hold as stated or estimated, for normal errors.
+bool states_its_scatter(const Made& made) {
+  return made.analysis->fitted.noise_scale == 1.0 && made.choice.at("residuals") == "normal";
+}
+
+TEST_F(Pairs, TheBootstrapDrawsTheScatterThatTheFitStates) {
+  int compared = 0;
+  for (const Made* made : answered()) {
+    if (!states_its_scatter(*made)) continue;
+    const FitResult& fitted = made->analysis->fitted;
+    const ResamplingPlan plan = plan_resampling(fitted, Scheme::parametric);
+    WhiteScatter scatter(fitted);
+    if (scatter.points() < 4) continue;
+    Observations sample = fitted.data;
+    for (std::uint64_t index = 0; index < simulated_sets; ++index) {
+      resample(plan, 5, index, sample);
+      scatter.add([&](std::size_t i) { return sample.points[i].restitution; },
+                  fitted.prediction_squared);
+    }
+    EXPECT_NEAR(scatter.mean_variance(), 1.0, scatter.tolerance())
+        << made->folder << ": " << pairs::words_of(made->choice);
+    ++compared;
+  }
+  EXPECT_GE(compared, 10);
+}
+
+TEST_F(Pairs, CoverageSimulatesTheScatterThatTheFitStates) {
+  int compared = 0;
+  for (const Made* made : answered()) {
+    // Each simulation would average over the sizes of its own truth.
+    const bool slow =
+        made->choice.at("sizes") == "mixed" && made->choice.at("materials") != "exact";
+    if (slow || !states_its_scatter(*made)) continue;
+    const FitResult& fitted = made->analysis->fitted;
+    WhiteScatter scatter(fitted);
+    if (scatter.points() < 4) continue;
+    const CoverageTruth truth = coverage_truth(fitted, made->analysis->datasets, 5);
+    for (std::uint64_t index = 0; index < simulated_sets; ++index) {
+      const std::vector<double> theta = truth.at ? truth.at(index).theta : truth.theta;
+      const std::vector<ImpactPoint> points = truth.simulate(index).front().points;
+      std::vector<double> squares;
+      for (const Prediction& at : predict(fitted.model, theta, fitted.data.conditions(), false)) {
+        squares.push_back(at.restitution_squared);
+      }
+      scatter.add([&](std::size_t i) { return points[i].restitution; }, squares);
+    }
+    EXPECT_NEAR(scatter.mean_variance(), 1.0, scatter.tolerance())
+        << made->folder << ": " << pairs::words_of(made->choice);
+    ++compared;
+  }
+  EXPECT_GE(compared, 6);
+}
+
+TEST_F(Pairs, JsonFitsItsSchema) {
+  const std::string script =
+      "import json, jsonschema, sys\n"
+      "check = jsonschema.Draft202012Validator(json.load(open(sys.argv[1])))\n"
+      "for file in sys.argv[2:]:\n"
+      "    for error in check.iter_errors(json.load(open(file))):\n"
+      "        print(file, list(error.absolute_path), error.message[:200])\n";
+  std::vector<std::string> words = {"python3", "-c", script,
+                                    RECOIL_SOURCE_DIR "/schemas/fit.schema.json"};
+  for (const Made* made : answered()) words.push_back((made->folder / "fit.json").string());
+  const support::Outcome run = support::run_command(words, place().path());
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Pairs, PagesHaveNoMissingNumber) {
+  const std::regex missing("\\b(nan|inf)\\b", std::regex::icase);
+  for (const Made* made : answered()) {
+    SCOPED_TRACE(pairs::words_of(made->choice));
+    std::smatch found;
+    for (const std::string& page :
+         {fit_html(*made->analysis), fit_text(*made->analysis, Importance::detail)}) {
+      const std::string words =
+          std::regex_replace(page, std::regex("<script[^>]*javascript[^]*?</script>"), "");
+      EXPECT_FALSE(std::regex_search(words, found, missing))
+          << std::string(found.prefix()).substr(std::max<std::ptrdiff_t>(0, found.position() - 80));
+    }
+  }
+}
+
+/// A point of the fitted curve, as fit.json has it.
+struct CurvePoint {
+  double diameter_um, velocity, restitution;
+};
+
+CurvePoint point_of_curve(const Made& made) {
+  const auto fit = nlohmann::json::parse(support::text_of(made.folder / "fit.json"));
+  std::vector<CurvePoint> points;
+  for (const auto& at : fit["curve"]) {
+    if (at["diameter_um"] != fit["curve"][0]["diameter_um"]) continue;
+    points.push_back({at["diameter_um"], at["incident_velocity"], at["restitution"]});
+  }
+  return points.at(points.size() * 2 / 3);
+}
+
+support::Outcome ask(const Made& made, const std::vector<std::string>& words,
+                     const std::vector<std::string>& more) {
+  std::vector<std::string> all = words;
+  all.insert(all.end(), {"fit.toml", "--parameters", "fit.json"});
+  all.insert(all.end(), more.begin(), more.end());
+  return support::run_recoil(all, made.folder);
+}
+
+// A sphere that `simulate` is asked for belongs to no series.
+TEST_F(Pairs, SimulateAnswersAsTheCurve) {
+  for (const Made* made : answered()) {
+    if (made->choice.at("mechanism") == "series_offset") continue;
+    SCOPED_TRACE(made->folder.string() + ": " + pairs::words_of(made->choice));
+    const CurvePoint at = point_of_curve(*made);
+    const support::Outcome run = ask(*made, {"simulate"},
+                                     {"--velocity", fmt::format("{}", at.velocity), "--diameter",
+                                      fmt::format("{}", at.diameter_um), "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const double e = nlohmann::json::parse(run.out)["restitution"];
+    EXPECT_NEAR(e, at.restitution, 1e-6);
+  }
+}
+
+// A table has single spheres without errors of the measurement.
+TEST_F(Pairs, AnExportedTableAnswersAsTheCurve) {
+  const std::set<std::string> of_measurement = {"velocity_offset", "survivor_bias",
+                                                "series_offset"};
+  for (const Made* made : answered()) {
+    if (of_measurement.contains(made->choice.at("mechanism"))) continue;
+    if (made->choice.at("sizes") == "mixed") continue;
+    SCOPED_TRACE(made->folder.string() + ": " + pairs::words_of(made->choice));
+    const CurvePoint at = point_of_curve(*made);
+    const support::Outcome run =
+        ask(*made, {"export"},
+            {"--velocity", fmt::format("{},{}", at.velocity, 2.0 * at.velocity), "--diameter",
+             fmt::format("{}", at.diameter_um), "--to", "table", "--out", "table"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::string csv = support::text_of(made->folder / "table/restitution.csv");
+    double diameter_um = 0.0, velocity = 0.0, e = 0.0;
+    ASSERT_EQ(std::sscanf(csv.c_str() + csv.find('\n'), "%lf,%lf,%lf", &diameter_um, &velocity, &e),
+              3);
+    EXPECT_NEAR(velocity, at.velocity, 1e-7 * velocity);
+    EXPECT_NEAR(e, at.restitution, 1e-6);
+  }
+}
+
+TEST_F(Pairs, DigitsDoNotDependOnTheThreads) {
+  const std::vector<const Made*> fits = answered();
+  for (std::size_t k = 0; k < fits.size(); k += 4) {
+    EXPECT_EQ(fit_json(analysed(fits[k]->folder, 3)),
+              support::text_of(fits[k]->folder / "fit.json"))
+        << pairs::words_of(fits[k]->choice);
+  }
+}
+
+}  // namespace
+}  // namespace recoil
