@@ -73,11 +73,11 @@ Fitted fit_points(FitInputs inputs, const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted read_fitted_values(FitInputs inputs, const ExportOptions& options) {
+Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const ExportOptions& options) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values =
-      take_fitted_values(out.model, inputs.datasets, options.parameters);
+      take_fitted_values(out.model, inputs.datasets, fit, options.parameters);
   out.theta = out.model.initial();
   out.source.parameters = "from " + options.parameters;
   set_values(out, [&](std::size_t s) { return values[s].std_error; });
@@ -169,12 +169,12 @@ void run_export(const ExportOptions& options) {
   require_stock_model(options, target);
   require_writable_folder(options.out);
   const Claim claim(std::filesystem::path(options.out) / "export");
+  const std::optional<FitFile> values = read_parameters(options.parameters);
   FitInputs inputs = load_inputs(options.fit_file);
   const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
   require_rebounds(inputs.datasets[d]);
-  Fitted fitted = options.parameters.empty()
-                      ? fit_points(std::move(inputs), options, target == ExportTarget::table)
-                      : read_fitted_values(std::move(inputs), options);
+  Fitted fitted = values ? read_fitted_values(std::move(inputs), *values, options)
+                         : fit_points(std::move(inputs), options, target == ExportTarget::table);
   const Dataset& dataset = fitted.datasets[d];
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;

@@ -108,12 +108,13 @@ missing. It overwrites points only with --replace.
     --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)");
   const auto flags = std::make_shared<ImportFlags>();
   ImportRequest& r = flags->request;
-  command.option("FILE", r.file, "what to import").required();
+  command.option("FILE", r.file, "what to import; - for standard input").required();
   command
       .option("--format", flags->format,
               fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
       .required();
   command.option("--into", r.into, "the dataset's folder").required();
+  command.option("--sheet", r.sheet, "sheet of a workbook (default: the first)");
   command.flag("--replace", r.replace,
                "replace the points of an existing dataset and keep its materials; a reconstruction "
                "becomes digitised");

@@ -17,8 +17,8 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"
-#include "experiment/import_table.hpp"
 #include "json/fit_file.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -88,22 +88,6 @@ void ask_for_missing(InitOptions& options) {
   }
 }
 
-/// A value of --map for the columns with known names, in default units.
-std::vector<std::string> map_of(const std::string& csv) {
-  static const std::vector<std::pair<std::string, std::string>> known = {
-      {"series", ""},          {"diameter", ":um"},           {"diameter_sd", ":um"},
-      {"restitution", ""},     {"restitution_sd", ""},        {"rebound_velocity", ":m/s"},
-      {"velocity_sd", ":m/s"}, {"incident_velocity", ":m/s"}, {"events", ""},
-      {"captured", ""}};
-  std::vector<std::string> map;
-  for (const std::string& column : split_list(csv.substr(0, csv.find_first_of("\r\n")))) {
-    for (const auto& [name, unit] : known) {
-      if (column == name) map.push_back(fmt::format("{}={}{}", name, name, unit));
-    }
-  }
-  return map;
-}
-
 /// Example points, computed from the model.
 std::string example_points(const Dataset& dataset, double diameter) {
   FitSpec spec = parse_fit(init_fit, "fit.toml");
@@ -150,10 +134,8 @@ Dataset make_example(ImportRequest request, double diameter) {
       "Computed by recoil init from the model, with noise: replace these points by yours"};
   request.sd_of = "mean";
   request.text = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
-  request.map = map_of(request.text);
   const Dataset first = import_points(request).dataset;  // provides the materials
   request.text = example_points(first, diameter);
-  request.map = map_of(request.text);
   request.replace = true;
   return import_points(request).dataset;
 }
@@ -172,33 +154,37 @@ void run_init(InitOptions options) {
   const Claim claim(folder / "points.csv");
   ImportRequest request;
   request.format = ImportFormat::csv;
+  request.usual_units = true;
   request.into = folder;
   request.particle = options.particle;
   request.surface = options.surface;
   request.like = options.like;
   if (options.diameter > 0.0) request.diameters = {fmt::format("{:g}um", options.diameter)};
   NewFiles made({folder / package_file_name, folder / "points.csv", fit_file});
-  Dataset dataset;
+  ImportResult result;
   if (options.points.empty()) {
     if (options.diameter <= 0.0) {
       throw InputError({}, "the diameter of the spheres is not known", "",
                        "give --diameter 5, or points with a column diameter");
     }
-    dataset = make_example(request, options.diameter * units::um);
+    result.dataset = make_example(request, options.diameter * units::um);
   } else {
     request.file = options.points;
-    request.map = map_of(read_text_file(options.points));
     request.provenance = value_named<Provenance>(options.provenance);
-    dataset = import_points(request).dataset;
+    result = import_points(request);
   }
   write_whole_file(fit_file, init_fit);
   load_inputs(fit_file);  // throws if the files are not valid
   made.keep();
-  print_text("{}: {} points{}\n", folder.string(), dataset.points.size(),
+  print_text("{}: {}{}\n", folder.string(), counted(result.dataset.points.size(), "point"),
              options.points.empty()
                  ? ", SYNTHETIC: computed from the model, with noise. Write your points to "
                    "points.csv and their provenance to datapackage.json"
                  : "");
+  for (const DatasetWarning& warning : result.dataset.warnings) {
+    print_text("note: {}\n", warning_sentence(warning));
+  }
+  for (const ImportNote& note : result.notes) print_text("note: {}\n", note_sentence(note));
   print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
              folder.string());
 }

@@ -87,7 +87,8 @@ std::vector<fs::path> forms_of(const fs::path& folder, const std::vector<Dataset
 
 void run_plan(PlanFlags flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
-  const FitSpec spec = with_fitted_loss(load_fit(flags.fit_file), flags.parameters);
+  const std::optional<FitFile> fitted = read_parameters(flags.parameters);
+  const FitSpec spec = with_fitted_loss(load_fit(flags.fit_file), fitted);
   std::vector<Dataset> datasets;
   for (const fs::path& folder : spec.datasets) {
     datasets.push_back(load_dataset_to_be_measured(folder));
@@ -103,8 +104,8 @@ void run_plan(PlanFlags flags) {
   const std::vector<Dataset> planned = datasets_to_plan(datasets, flags.plan.diameters);
   ImpactModel model = make_model(spec, planned);
   std::string origin = "the initial values of the fit file";
-  if (!flags.parameters.empty()) {
-    take_fitted_values(model, datasets, flags.parameters);
+  if (fitted) {
+    take_fitted_values(model, datasets, *fitted, flags.parameters);
     origin = "from " + flags.parameters;
   }
   for (const auto& [name, value] : flags.assumed) {

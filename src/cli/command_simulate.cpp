@@ -217,10 +217,11 @@ void simulate(const SimulateOptions& options) {
   if (!options.history.empty()) {
     require_writable_folder(std::filesystem::absolute(options.history).parent_path());
   }
-  const FitSpec spec = with_fitted_loss(load_fit(options.fit_file), options.parameters);
+  const std::optional<FitFile> fitted = read_parameters(options.parameters);
+  const FitSpec spec = with_fitted_loss(load_fit(options.fit_file), fitted);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);
-  if (!options.parameters.empty()) take_fitted_values(model, datasets, options.parameters);
+  if (fitted) take_fitted_values(model, datasets, *fitted, options.parameters);
   if (!options.history.empty()) require_free({options.history});
   const std::size_t d = choose_dataset(datasets, options.dataset);
   const PointConditions at = {d, options.diameter * units::um, options.velocity};

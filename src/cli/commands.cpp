@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "document/terminal.hpp"
 
@@ -25,7 +26,7 @@ std::vector<std::string> fits_beside(const fs::path& file) {
 
 std::string require_there(const std::string& file) {
   std::error_code failed;
-  if (fs::exists(fs::status(file, failed))) return "";
+  if (descriptor_named(file) || fs::exists(fs::status(file, failed))) return "";
   const std::string near = nearest_word(fs::path(file).filename().string(), fits_beside(file));
   throw InputError({file}, "no such file", "",
                    near.empty() ? "check the path"

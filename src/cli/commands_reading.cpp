@@ -43,6 +43,7 @@ standard deviations. The column "held out" is the error at diameters left out of
   command.runs([files, json] {
     std::vector<ComparedFit> fits;
     for (const std::string& file : *files) fits.push_back(compared_fit(file, read_text_file(file)));
+    fits = told_apart(std::move(fits));
     print_text("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
   });
 }

@@ -22,8 +22,6 @@ namespace {
 
 constexpr int wrong_input = 2;
 constexpr int no_answer = 3;
-constexpr const char* output_is_lost =
-    "the output could not be written: standard output is full or closed";
 
 void add_commands(Program& program) {
   add_check(program);
@@ -69,7 +67,8 @@ int run(const std::vector<std::string>& words) {
   try {
     program.run(words);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      throw ComputationError(output_is_lost);
+      throw InputError({}, "the output could not be written", "standard output is full or closed",
+                       "");
     }
     return 0;
   } catch (const UsageError& error) {

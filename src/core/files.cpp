@@ -2,19 +2,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sha256.h>
+#include <md5.h>
+#include <poll.h>
+#include <sha1.h>
+#include <sha2.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <system_error>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -136,85 +140,96 @@ std::string advice_on(int failed) {
   }
 }
 
-/// Reads a file, or a pipe or device to its end.
-/// @throws InputError as read_text_file
-std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_bytes,
-                        std::chrono::milliseconds patience) {
-  using Clock = std::chrono::steady_clock;
-  const Location where{path.string()};
-  const auto fail = [&](const std::string& problem, const std::string& why,
-                        const std::string& suggestion) {
-    throw InputError(where, problem, why, suggestion);
-  };
-  const auto fail_to_read = [&] {
-    fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
-  };
+/// Opens a file for reading. A path that names an open descriptor gives a copy of it, because a
+/// socket cannot be opened by its name.
+int open_to_read(const std::filesystem::path& path) {
+  if (const auto descriptor = descriptor_named(path)) {
+    return fcntl(*descriptor, F_DUPFD_CLOEXEC, 0);
+  }
   // O_NONBLOCK: a pipe without a writer is opened all the same.
-  const OpenFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  struct stat status {};
-  if (file.get() < 0 || fstat(file.get(), &status) != 0) fail_to_read();
-  std::string text;
-  std::array<char, 1 << 16> piece{};
-  Clock::time_point last = Clock::now();
-  for (;;) {
-    const ssize_t size = read(file.get(), piece.data(), piece.size());
-    if (size > 0) {
-      text.append(piece.data(), static_cast<std::size_t>(size));
-      if (text.size() > max_bytes) {
-        fail(fmt::format("the file has more than {} MB", max_bytes / 1000000), "no more is read",
-             "split it");
-      }
-      last = Clock::now();
-      continue;
-    }
-    // The pipe has no writer yet, or is still empty.
-    const bool waits =
-        size == 0 ? S_ISFIFO(status.st_mode) && text.empty() : errno == EAGAIN || errno == EINTR;
-    if (!waits && size < 0) fail_to_read();
-    if (!waits) break;
-    end_if_called_off();
-    if (Clock::now() - last > patience) {
-      fail(fmt::format("no data have arrived for {:.3g} s",
-                       std::chrono::duration<double>(patience).count()),
-           "it is a pipe or a device", "name a file");
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  if (read_files().are_protected) {
-    const std::lock_guard lock(read_files().mutex);
-    read_files().files.insert(identity_of(status));
-  }
-  return text;
+  return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
 
 }  // namespace
 
 void protect_inputs() { read_files().are_protected = true; }
 
+std::optional<int> descriptor_named(const std::filesystem::path& path) {
+  if (path == "-" || path == "/dev/stdin") return STDIN_FILENO;
+  if (path.parent_path() != "/dev/fd" && path.parent_path() != "/proc/self/fd") return std::nullopt;
+  const std::string digits = path.filename();
+  int number = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [rest, failed] = std::from_chars(digits.data(), end, number);
+  return failed == std::errc() && rest == end ? std::optional<int>(number) : std::nullopt;
+}
+
+std::string read_bytes(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                       std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  const auto fail = [&](const std::string& problem, const std::string& why,
+                        const std::string& suggestion) {
+    throw InputError({path.string()}, problem, why, suggestion);
+  };
+  const auto fail_to_read = [&] {
+    fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
+  };
+  const OpenFile file(open_to_read(path));
+  if (file.get() < 0 && (errno == ENOENT || errno == ENOTDIR)) {
+    fail("no such file", "", "check the path");
+  }
+  struct stat status {};
+  if (file.get() < 0 || fstat(file.get(), &status) != 0) fail_to_read();
+  if (S_ISDIR(status.st_mode)) fail("this is a folder, not a file", "", "name a file inside it");
+  if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > max_bytes) {
+    fail(fmt::format("the file has {} MB", status.st_size / 1000000),
+         fmt::format("at most {} MB are read", max_bytes / 1000000), "split it");
+  }
+  constexpr auto longest_wait = std::chrono::milliseconds(100);
+  const auto wait = static_cast<int>(std::min(patience, longest_wait).count());
+  std::string bytes;
+  std::array<char, 1 << 16> piece{};
+  for (Clock::time_point last = Clock::now();;) {
+    pollfd data{file.get(), POLLIN, 0};
+    const bool ready = poll(&data, 1, wait) > 0;
+    const ssize_t size = ready ? read(file.get(), piece.data(), piece.size()) : -1;
+    if (size == 0) break;
+    if (size > 0) {
+      bytes.append(piece.data(), static_cast<std::size_t>(size));
+      if (bytes.size() > max_bytes) {
+        fail(fmt::format("the file has more than {} MB", max_bytes / 1000000), "no more is read",
+             "split it");
+      }
+      last = Clock::now();
+      continue;
+    }
+    if (ready && errno != EAGAIN && errno != EINTR) fail_to_read();
+    end_if_called_off();
+    if (Clock::now() - last > patience) {
+      fail(fmt::format("no data have arrived for {:.3g} s",
+                       std::chrono::duration<double>(patience).count()),
+           "it is a pipe or a device", "name a file");
+    }
+  }
+  if (read_files().are_protected) {
+    const std::lock_guard lock(read_files().mutex);
+    read_files().files.insert(identity_of(status));
+  }
+  return bytes;
+}
+
+std::string as_text(std::string bytes, const std::filesystem::path& path) {
+  if (const auto nul = bytes.find('\0'); nul != std::string::npos) {
+    throw InputError({path.string()}, "this is not a text file",
+                     fmt::format("byte {} is NUL", nul + 1), "save it as UTF-8 text");
+  }
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);  // a byte-order mark says nothing
+  return bytes;
+}
+
 std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max_bytes,
                            std::chrono::milliseconds patience) {
-  const Location where{path.string()};
-  std::error_code failed;
-  const auto status = std::filesystem::status(path, failed);
-  if (failed || !std::filesystem::exists(status)) {
-    throw InputError(where, "no such file", "", "check the path");
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(where, "this is a folder, not a file", "", "name a file inside it");
-  }
-  const std::uintmax_t size =
-      std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, failed) : 0;
-  if (!failed && size > max_bytes) {
-    throw InputError(where, fmt::format("the file has {} MB", size / 1000000),
-                     fmt::format("at most {} MB are read", max_bytes / 1000000), "split it");
-  }
-  std::string text = contents_of(path, max_bytes, patience);
-  if (const auto nul = text.find('\0'); nul != std::string::npos) {
-    throw InputError(where, "this is not a text file", fmt::format("byte {} is NUL", nul + 1),
-                     "save it as UTF-8 text");
-  }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte-order mark carries no meaning
-  return text;
+  return as_text(read_bytes(path, max_bytes, patience), path);
 }
 
 InputError cannot_be_written(const std::filesystem::path& path, int failed) {
@@ -320,11 +335,19 @@ void require_writable_folder(const std::filesystem::path& folder) {
   }
 }
 
-std::string sha256_hex(std::string_view bytes) {
-  char digest[SHA256_DIGEST_STRING_LENGTH];
-  SHA256Data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), digest);
+std::string hash_hex(std::string_view algorithm, std::string_view bytes) {
+  constexpr std::array<std::pair<std::string_view, char* (*)(const uint8_t*, size_t, char*)>, 4>
+      known = {
+          {{"md5", MD5Data}, {"sha1", SHA1Data}, {"sha256", SHA256Data}, {"sha512", SHA512Data}}};
+  char digest[SHA512_DIGEST_STRING_LENGTH] = "";  // the longest
+  for (const auto& [name, compute] : known) {
+    if (name != algorithm) continue;
+    compute(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), digest);
+  }
   return digest;
 }
+
+std::string sha256_hex(std::string_view bytes) { return hash_hex("sha256", bytes); }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   char digest[SHA256_DIGEST_STRING_LENGTH];

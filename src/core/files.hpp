@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,9 +11,22 @@
 
 namespace recoil {
 
-/// Reads a text file, without a byte-order mark.
-/// @throws InputError if the file is missing, unreadable, a folder, larger than `max_bytes` or
-///   contains a NUL byte, and if it is a pipe or device that sends no data for `patience`
+/// The open descriptor that a path names: 0 for "-" and /dev/stdin, N for /dev/fd/N, as a shell
+/// writes <(...). Such a file can be read only once.
+std::optional<int> descriptor_named(const std::filesystem::path& path);
+
+/// Reads a file, or a pipe or device to its end. "-" is standard input.
+/// @throws InputError if the file is missing, unreadable, a folder or larger than `max_bytes`, and
+///   if it is a pipe or device that sends no data for `patience`
+std::string read_bytes(const std::filesystem::path& path,
+                       std::uintmax_t max_bytes = 256ULL * 1024 * 1024,
+                       std::chrono::milliseconds patience = std::chrono::seconds(30));
+
+/// The text of a file with this content, without a byte-order mark.
+/// @throws InputError if it contains a NUL byte
+std::string as_text(std::string bytes, const std::filesystem::path& path);
+
+/// Reads a text file. @throws InputError as `read_bytes` and `as_text`
 std::string read_text_file(const std::filesystem::path& path,
                            std::uintmax_t max_bytes = 256ULL * 1024 * 1024,
                            std::chrono::milliseconds patience = std::chrono::seconds(30));
@@ -57,7 +71,11 @@ InputError cannot_be_written(const std::filesystem::path& path, int failed);
 /// @throws InputError if it is a file, or if the nearest existing folder above it is read-only
 void require_writable_folder(const std::filesystem::path& folder);
 
-/// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
+/// A hash of `bytes` as lower-case hexadecimal digits. @param algorithm md5 (RFC 1321), sha1,
+/// sha256 or sha512 (FIPS 180-4); the hash by another one is empty
+std::string hash_hex(std::string_view algorithm, std::string_view bytes);
+
+/// SHA-256 of `bytes`.
 std::string sha256_hex(std::string_view bytes);
 
 /// SHA-256 of the content of a file; empty if it cannot be read.

@@ -5,16 +5,24 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace recoil {
 namespace {
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
+
+/// True if standard error is a terminal that can redraw a line.
+bool can_redraw() {
+  const char* const kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
 }
+}  // namespace
 
 Progress::Progress(std::string label, std::size_t total, Pace pace)
     : label_(std::move(label)),
       total_(total),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      terminal_(can_redraw()),
       pace_(pace),
       start_(std::chrono::steady_clock::now()),
       due_(terminal_ ? start_ : start_ + pace_.first) {}

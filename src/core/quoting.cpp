@@ -15,13 +15,13 @@ bool is_plain(char c, std::string_view others) {
          others.find(c) != std::string_view::npos;
 }
 
+}  // namespace
+
 void replace_all(std::string& text, std::string_view old, std::string_view by) {
   for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += by.size()) {
     text.replace(at, old.size(), by);
   }
 }
-
-}  // namespace
 
 std::size_t utf8_length(std::string_view text, std::size_t i) {
   const unsigned first = byte_at(text, i);

@@ -13,6 +13,9 @@ namespace recoil {
 // Functions that escape text from users (file names, titles) for another syntax. For HTML and XML
 // see plot::escape_xml, for JSON json_text.
 
+/// Replaces every `old`, which is not empty, in `text`.
+void replace_all(std::string& text, std::string_view old, std::string_view by);
+
 /// Length of the UTF-8 sequence that starts at byte `i` of `text`; 0 when it is not valid (RFC
 /// 3629).
 std::size_t utf8_length(std::string_view text, std::size_t i);

@@ -79,7 +79,7 @@ class CsvReader {
         if (peek() == '"') fail_inside();
         append(field);
       }
-      field.text.erase(field.text.find_last_not_of(" \t") + 1);
+      field.text = std::string(trimmed(field.text));
     }
     return field;
   }
@@ -136,6 +136,7 @@ void read_csv(std::string_view text, const std::string& file, char delimiter,
 
 std::optional<double> parse_number(std::string_view text, const NumberFormat& format) {
   std::string plain(trimmed(text));
+  replace_all(plain, "\u2212", "-");  // the minus of mathematics
   std::size_t whole =
       std::min({plain.find(format.decimal), plain.find_first_of("eE"), plain.size()});
   const std::size_t mark = format.group.size();
@@ -206,7 +207,7 @@ void require_width(const CsvRow& row, std::size_t width, const std::string& file
   if (row.size() == width) return;
   const bool too_many = row.size() > width;
   throw InputError((too_many ? row[width] : row.back()).in(file),
-                   fmt::format("this row has {} cell{}", row.size(), row.size() == 1 ? "" : "s"),
+                   "this row has " + counted(row.size(), "cell"),
                    fmt::format("the header has {}", width),
                    too_many ? "write decimals with a point (1.5), and quote text that has commas"
                             : "leave a cell empty when its value is not known, but keep the comma");

@@ -23,8 +23,8 @@ struct CsvField {
 using CsvRow = std::vector<CsvField>;
 
 /// Reads delimiter-separated text (RFC 4180) and calls `on_row` for one row after the other, the
-/// header first. Blank lines and blanks around unquoted cells are skipped. Only one row is in
-/// memory at a time.
+/// header first. Blank lines and blanks around unquoted cells are skipped (see `trimmed`). Only one
+/// row is in memory at a time.
 ///
 /// @param file its name in messages
 /// @param delimiter between cells; ' ' stands for any number of blanks and tabs

@@ -230,6 +230,19 @@ void read_dialect(const JsonNode& resource, Package& package) {
   }
 }
 
+/// Reads "sha256:9f86..."; a hash without a prefix is md5 (Frictionless).
+void read_hash(const JsonNode& node, Package& package) {
+  std::string text = node.string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::size_t colon = text.find(':');
+  package.points_hash_algorithm = colon == std::string::npos ? "md5" : text.substr(0, colon);
+  package.points_hash = text.substr(colon == std::string::npos ? 0 : colon + 1);
+  if (hash_hex(package.points_hash_algorithm, "").empty()) {
+    node.fail(fmt::format("a hash by {}", quote(package.points_hash_algorithm)), "",
+              "known: md5, sha1, sha256, sha512");
+  }
+}
+
 void read_resource(const JsonNode& root, Package& package) {
   const JsonNode resources = root.require("resources", "it names the file with the points",
                                           "add [{\"path\": \"points.csv\", \"schema\": ...}]");
@@ -243,6 +256,8 @@ void read_resource(const JsonNode& root, Package& package) {
       resource.require("path", "it names the file with the points", "write \"points.csv\"");
   package.points_path = read_path(path);
   package.points_where = path.where();
+  if (const auto bytes = resource.find("bytes")) package.points_bytes = bytes->number();
+  if (const auto hash = resource.find("hash")) read_hash(*hash, package);
   read_dialect(resource, package);
   const JsonNode schema = resource.require("schema", "it states the columns and their units",
                                            "list the fields with name, type and unit");

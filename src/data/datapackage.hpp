@@ -94,11 +94,14 @@ struct Package {
   std::string mixed_sizes;  ///< path of the sizes over which every point averages; else empty
   Location mixed_sizes_where;
   std::vector<std::string> sources;
-  std::string points_path;  ///< relative, inside the folder
-  Location points_where;    ///< place of the path
-  char delimiter = ',';     ///< Frictionless `dialect.delimiter`
-  char comment = '\0';      ///< `dialect.commentChar`
-  bool header = true;  ///< `dialect.header`; without one, columns come in the order of the fields
+  std::string points_path;             ///< relative, inside the folder
+  Location points_where;               ///< place of the path
+  std::optional<double> points_bytes;  ///< stated size of the file
+  std::string points_hash_algorithm,
+      points_hash;       ///< stated hash of the file, lower case; or empty
+  char delimiter = ',';  ///< Frictionless `dialect.delimiter`
+  char comment = '\0';   ///< `dialect.commentChar`
+  bool header = true;    ///< `dialect.header`; without one, columns come in the order of the fields
   std::vector<Column> columns;
 };
 

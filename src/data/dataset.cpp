@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <system_error>
 #include <tuple>
 
@@ -53,6 +52,7 @@ class PointReader {
                        "write one line for each point");
     }
     refuse_impossible_sd();
+    remark_repeated();
     name_series();
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
@@ -100,12 +100,13 @@ class PointReader {
     if (stated_sd_.size() < 3) return;
     std::vector<StatedSd> sorted = stated_sd_;
     std::ranges::sort(sorted, {}, &StatedSd::of_impact);
+    const StatedSd& least = sorted.front();
     const double middle = sorted[sorted.size() / 2].of_impact;
-    if (!(sorted.front().of_impact * most_ratio < middle)) return;
-    throw InputError(sorted.front().where,
-                     fmt::format("restitution_sd = {:g}", sorted.front().stated),
+    if (!(least.of_impact * most_ratio < middle)) return;
+    throw InputError({file_, least.line, least.column},
+                     fmt::format("restitution_sd = {:g}", least.stated),
                      fmt::format("that of a single impact is {:.2g} times smaller than usual here",
-                                 middle / sorted.front().of_impact),
+                                 middle / least.of_impact),
                      "correct it, or leave the cell empty when it is not known");
   }
 
@@ -267,12 +268,20 @@ class PointReader {
       range.hint = "a rebound is not faster than the impact: correct it; in per cent its unit is %";
       known = value(quantity, range);
     }
+    if (known == 0.0 && !point.counted) point.captured = point.events;
     if (point.all_captured()) {
       if (known.value_or(0.0) == 0.0) return 0.0;
       fail(field(quantity),
            fmt::format("a rebound of {} although all were captured", quote(field(quantity).text)),
            "the mean is that of the spheres that rebounded",
            "write 0 or leave the cell empty, or correct 'captured'");
+    }
+    if (known == 0.0) {
+      fail(field(quantity),
+           fmt::format("a rebound of 0 although 'captured' is {} of {}", point.captured,
+                       point.events),
+           "a sphere that does not rebound is captured",
+           "correct 'captured', or leave the cell empty if the rebounds were only counted");
     }
     point.counts_only = !known && point.counted && cell(Quantity::events) != nullptr;
     if (known || point.counts_only) return known.value_or(0.0);
@@ -304,8 +313,9 @@ class PointReader {
     point.restitution_sd = value(Quantity::restitution_sd, limits::restitution_sd);
     if (point.restitution_sd) {
       const int impacts = std::max(1, point.events - point.captured);
-      stated_sd_.push_back({*point.restitution_sd * std::sqrt(impacts), *point.restitution_sd,
-                            field(Quantity::restitution_sd).in(file_)});
+      const CsvField& sd = field(Quantity::restitution_sd);
+      stated_sd_.push_back(
+          {*point.restitution_sd * std::sqrt(impacts), *point.restitution_sd, sd.line, sd.column});
     }
     point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
     point.setting_velocity_sd = value(Quantity::setting_velocity_sd, limits::velocity_sd);
@@ -317,23 +327,37 @@ class PointReader {
     dataset_.points.push_back(point);
   }
 
+  void add(PointRemark remark, int line) {
+    DatasetWarning& warning = warnings_[remark];
+    warning = {remark, warning.count + 1, warning.count == 0 ? line : warning.first_line};
+  }
+
   void remark(const ImpactPoint& point) {
-    const auto add = [&](PointRemark remark) {
-      DatasetWarning& warning = warnings_[remark];
-      if (warning.count++ == 0) warning = {remark, 1, point.line};
-    };
-    if (point.restitution > 1.0) add(PointRemark::restitution_above_one);
-    if (point.restitution == 0.0 && !point.all_captured() && !point.counts_only)
-      add(PointRemark::unmarked_zero);
+    if (point.restitution > 1.0) add(PointRemark::restitution_above_one, point.line);
+    if (point.all_captured() && !point.counted) add(PointRemark::unmarked_zero, point.line);
     const Method method = package_.system.method;
     const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
-    if (point.diameter > limits::unusual_diameter && !balls) add(PointRemark::unusual_diameter);
-    // Repeated drops with one setting may give the same reading.
-    if (!point.setting.empty()) return;
-    if (!seen_.emplace(point.series, point.diameter, point.incident_velocity, point.restitution)
-             .second) {
-      add(PointRemark::repeated);
+    if (point.diameter > limits::unusual_diameter && !balls) {
+      add(PointRemark::unusual_diameter, point.line);
     }
+  }
+
+  /// Repeated drops with one setting may give the same reading; others are remarked.
+  void remark_repeated() {
+    std::vector<const ImpactPoint*> sorted;
+    for (const ImpactPoint& point : dataset_.points) {
+      if (point.setting.empty()) sorted.push_back(&point);
+    }
+    const auto reading = [](const ImpactPoint* p) {
+      return std::tuple(p->series, p->diameter, p->incident_velocity, p->restitution);
+    };
+    std::ranges::stable_sort(sorted, {}, reading);
+    std::vector<int> lines;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (reading(sorted[i]) == reading(sorted[i - 1])) lines.push_back(sorted[i]->line);
+    }
+    std::ranges::sort(lines);
+    for (const int line : lines) add(PointRemark::repeated, line);
   }
 
   const std::string& file_;
@@ -344,12 +368,12 @@ class PointReader {
   std::vector<const Column*> header_;  ///< of each field of a row
   std::map<Quantity, std::size_t> field_of_;
   std::map<std::pair<std::string, Conditions>, std::size_t> series_of_;
-  std::set<std::tuple<std::size_t, double, double, double>> seen_;
   std::map<PointRemark, DatasetWarning> warnings_;
   struct StatedSd {
     double of_impact;  ///< sqrt(rebounds) times what is stated [1]
     double stated;     ///< [1]
-    Location where;
+    int line;
+    int column;
   };
   std::vector<StatedSd> stated_sd_;
 };
@@ -376,6 +400,7 @@ Dataset with_points(const Package& package, const std::string& package_text,
   const std::string file = (folder / package.points_path).string();
   require_text(csv_text, file);
   Dataset dataset = without_points(package, package_text, folder);
+  dataset.points.reserve(static_cast<std::size_t>(std::ranges::count(csv_text, '\n')));
   PointReader reader(file, package, dataset);
   read_csv(
       csv_text, file, package.delimiter, [&](const CsvRow& row) { reader.read_row(row); },
@@ -433,12 +458,18 @@ Dataset load(const fs::path& folder, bool may_lack_points) {
     throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
                      "correct the path or add the file");
   }
-  const std::string csv_text = missing ? "" : read_text_file(points_file);
+  std::string bytes = missing ? "" : read_bytes(points_file);
+  const auto size = static_cast<double>(bytes.size());
+  const bool other_bytes = package.points_bytes.value_or(size) != size ||
+                           (!package.points_hash.empty() &&
+                            package.points_hash != hash_hex(package.points_hash_algorithm, bytes));
+  const std::string csv_text = as_text(std::move(bytes), points_file);
   if (may_lack_points && has_no_point(csv_text)) {
     return without_points(package, package_text, folder);
   }
   Dataset dataset = with_points(package, package_text, csv_text, folder);
   if (!package.mixed_sizes.empty()) read_mixed_sizes(package, folder, dataset);
+  if (other_bytes) dataset.warnings.push_back({PointRemark::other_bytes, 1, 1});
   return dataset;
 }
 

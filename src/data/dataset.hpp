@@ -32,7 +32,7 @@ struct ImpactPoint {
   /// One standard deviation of an error of `diameter` that all points of its series share [m].
   std::optional<double> series_diameter_sd;
   int events = 1;            ///< impacts averaged in this point, captured ones included
-  int captured = 0;          ///< how many of them did not rebound
+  int captured = 0;          ///< how many of them did not rebound; all if e is 0 and none is stated
   bool counted = false;      ///< `captured` is stated: 0 is a count, not unknown
   bool counts_only = false;  ///< the number of rebounds is known, their velocity is not
   /// Points with the same setting of the apparatus share its error. Empty without such a column:
@@ -53,7 +53,13 @@ struct DataColumn {
 };
 
 /// Something unusual about a point, which is kept.
-enum class PointRemark { restitution_above_one, unmarked_zero, unusual_diameter, repeated };
+enum class PointRemark {
+  restitution_above_one,
+  unmarked_zero,  ///< e = 0 without `captured`: all its impacts count as captured
+  unusual_diameter,
+  repeated,
+  other_bytes,  ///< the file has not the size or hash that datapackage.json states
+};
 
 /// All points with the same remark.
 struct DatasetWarning {
@@ -95,7 +101,8 @@ std::string name_of_folder(const std::filesystem::path& folder);
 /// resource that it names. All units are converted to SI here.
 ///
 /// The restitution of a point is the mean over the events that rebounded. If all `events` were
-/// captured it is 0 or an empty cell. With `rebound_velocity`, e = rebound / incident.
+/// captured it is 0 or an empty cell, and a 0 without `captured` means that. With
+/// `rebound_velocity`, e = rebound / incident.
 /// @throws InputError with file, line and column of the first mistake
 Dataset load_dataset(const std::filesystem::path& folder);
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -11,6 +12,9 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t longest_word = 40;  // in a message [characters]
+
+/// The last three are no-break spaces, which spreadsheets and web pages put around numbers.
+constexpr std::array<std::string_view, 6> blanks = {" ", "\t", "\r", "\u00A0", "\u202F", "\u2007"};
 
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
@@ -53,10 +57,21 @@ void require_text(std::string_view text, const std::string& file) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  const auto drop = [&](std::string_view blank) {
+    const bool before = text.starts_with(blank);
+    const bool after = !before && text.ends_with(blank);
+    if (before) text.remove_prefix(blank.size());
+    if (after) text.remove_suffix(blank.size());
+    return before || after;
+  };
+  while (std::ranges::any_of(blanks, drop)) {
+  }
+  return text;
+}
+
+std::string with_plain_blanks(std::string text) {
+  for (const std::string_view blank : blanks) replace_all(text, blank, " ");
+  return text;
 }
 
 std::string shortened(std::string_view text, std::size_t longest) {
@@ -103,6 +118,11 @@ std::string listed(const std::vector<std::string>& words) {
     text += printable(shortened(words[i], longest_word));
   }
   return text;
+}
+
+std::string counted(long long count, std::string_view one, std::string_view many) {
+  if (count == 1) return fmt::format("1 {}", one);
+  return many.empty() ? fmt::format("{} {}s", count, one) : fmt::format("{} {}", count, many);
 }
 
 std::string join(const std::vector<std::string>& words) {

@@ -19,8 +19,11 @@ Location locate(std::string_view text, std::size_t offset, const std::string& fi
 /// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629)
 void require_text(std::string_view text, const std::string& file);
 
-/// `text` without the blanks, tabs and carriage returns around it.
+/// `text` without the blanks, no-break spaces, tabs and carriage returns around it.
 std::string_view trimmed(std::string_view text);
+
+/// `text` with a blank instead of each no-break space, tab and carriage return.
+std::string with_plain_blanks(std::string text);
 
 /// The first `longest` characters of `text`, followed by dots if there are more.
 std::string shortened(std::string_view text, std::size_t longest);
@@ -42,6 +45,9 @@ std::string unit_suffix(std::string_view unit);
 /// "a, b, c and 7 more": a list of words for a message, each printable and cut to 40 characters, at
 /// most about 400 characters in all.
 std::string listed(const std::vector<std::string>& words);
+
+/// "1 point", "7 points". @param many if it is not `one` and an s
+std::string counted(long long count, std::string_view one, std::string_view many = "");
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);

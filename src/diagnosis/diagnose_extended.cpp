@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -49,13 +47,7 @@ void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
 }  // namespace
 
 std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::path& folder) {
-  toml::table root;
-  try {
-    root = toml::parse(read_text_file(diagnosis.spec.file));
-  } catch (const toml::parse_error&) {
-    throw InputError({diagnosis.spec.file.string()}, "the file is no longer valid TOML",
-                     "it was when the diagnosis began", "leave it as it is until the end");
-  }
+  toml::table root = toml::parse(diagnosis.spec.text);
   toml::array paths = paths_from(diagnosis.spec, folder);
   if (paths.size() == 1) {
     root.insert_or_assign("dataset", *paths.get(0)->as_string());

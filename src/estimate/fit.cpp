@@ -11,6 +11,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/judge_noise.hpp"
 #include "estimate/misfit.hpp"
@@ -171,8 +172,9 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   const int free_count = model.free_count();
   result.dof = static_cast<int>(result.data.points.size()) - free_count;
   if (result.dof < 0) {
-    result.failure = fmt::format("{} points cannot determine {} free parameters",
-                                 result.data.points.size(), free_count);
+    result.failure =
+        fmt::format("{} cannot determine {}", counted(result.data.points.size(), "point"),
+                    counted(free_count, "free parameter"));
     return result;
   }
   StartSearch search =

@@ -214,8 +214,9 @@ class FitReader : private TomlReader {
  public:
   FitReader(const std::string& text, const std::filesystem::path& file)
       : TomlReader(file.string()), text_(text), folder_(file.parent_path()) {
-    fit_.spec.id = file.stem().string();
+    fit_.spec.id = descriptor_named(file) ? "fit" : file.stem().string();
     fit_.spec.file = file;
+    fit_.spec.text = text;
     fit_.spec.sha256 = sha256_hex(text);
   }
 

@@ -90,6 +90,7 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
         "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
   }
   ImportedPoints out;
+  out.points.reserve(table.size());
   for (std::size_t r = 0; r < table.size(); ++r) {
     ImportedPoint point;
     point.line = table.line(r);
@@ -237,20 +238,24 @@ bool adhesion_is_negligible(const ImportRequest& request, const Json& system,
 
 }  // namespace
 
-ImportResult import_points(const ImportRequest& request) {
-  refuse_existing(request);
-  std::vector<ImportNote> unused;
-  table_text(request, unused);  // a missing file is reported before missing options
+ImportResult import_points(const ImportRequest& asked) {
+  refuse_existing(asked);
+  ImportRequest request = asked;
+  std::vector<ImportNote> notes;
+  if (!request.text) request.text = table_text(request, notes);  // before options are missed
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
+  const FieldUnits units = existing              ? existing->units
+                           : request.usual_units ? usual_units()
+                                                 : FieldUnits();
   ImportResult result;
   Json system = imported_system(request, existing, result.notes);
-  ImportedPoints imported =
-      read_points_of(request, system, existing ? existing->units : FieldUnits());
+  ImportedPoints imported = read_points_of(request, system, units);
   settle_diameters(request, imported);
   add_scatter(request, imported.points);
 
-  result.notes.insert(result.notes.begin(), imported.notes.begin(), imported.notes.end());
+  notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
   const PointsText points = points_text(imported.points);
   std::string package = imported_package(request, system, points, existing, result.notes);
   const fs::path points_file = request.into / (existing ? existing->points_path : "points.csv");

@@ -29,10 +29,13 @@ constexpr auto names_of_values(ImportFormat) {
 /// are words such as "4.9um"; errors are "2%" (of the value) or "0.5mm".
 struct ImportRequest {
   std::filesystem::path file;
-  std::string text;  ///< the content to import instead of reading `file`; empty: none
+  std::optional<std::string> text;  ///< the content to import instead of reading `file`
   ImportFormat format = ImportFormat::csv;
   std::filesystem::path into;  ///< the dataset's folder
   bool replace = false;        ///< replace the points of the dataset in the folder
+
+  std::string sheet;         ///< of a workbook; empty: the first
+  bool usual_units = false;  ///< columns without a unit are in um, m/s and SI units
 
   std::vector<std::string> map;  ///< "quantity=column:unit"
   bool decimal_comma = false;    ///< numbers are written 2,5
@@ -73,7 +76,7 @@ struct ImportRequest {
 /// A note about an import: an assumption, an omission or the result of a check.
 enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
-  workbook_converted,    ///< `names`: the program that made a table of its first sheet
+  sheet_read,            ///< `names`: the sheet of a workbook, and those that were not read
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a needed cell is empty
   signed_velocities,     ///< velocities were signed; their magnitudes were taken
@@ -95,6 +98,7 @@ enum class ImportRemark {
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
+  axis_points_down,        ///< tracks: heights are measured downward
   track_fall,              ///< tracks: `fall` differs from `gravity`
   drag_stays,              ///< tracks: air drag is not corrected
   no_source,

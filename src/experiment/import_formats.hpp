@@ -54,6 +54,10 @@ ImportedPoints read_digitised(const ImportRequest& request);
 /// Two parabolas intersect at the impact, where e = -v_after / v_before and V = -v_before. The
 /// errors follow from the scatter about the parabolas and the covariance of c, b and a. Air drag is
 /// not corrected.
+///
+/// Programs for images often count heights downward. Both directions are tried, and the one with
+/// the smaller scatter about parabolas that open downward (a > 0) is taken for all balls: in the
+/// other one, the flights that a > 0 needs would contain the impacts.
 ImportedPoints read_track(const ImportRequest& request);
 
 /// The datapackage.json of the folder whose points are to be replaced.
@@ -74,6 +78,9 @@ struct PointsText {
   Json fields;  ///< of the schema
 };
 PointsText points_text(const std::vector<ImportedPoint>& points);
+
+/// The units in which `points_text` would write lengths below 1 mm and all other quantities.
+FieldUnits usual_units();
 
 /// The object under the key `recoil` of the new datapackage.json: provenance, materials, overrides
 /// that do not contradict them, and conditions. Flights are through air at 101325 Pa and 293 K,

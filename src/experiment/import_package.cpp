@@ -21,6 +21,11 @@ void remove_words(std::string& text, const std::string& words) {
     text.erase(at, words.size());
 }
 
+/// The imported file in descriptions.
+std::string source_name(const ImportRequest& request) {
+  return descriptor_named(request.file) ? "a pipe" : request.file.filename().string();
+}
+
 Json parse_json(const std::string& text, const std::filesystem::path& file) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) {
@@ -127,7 +132,7 @@ std::string description_of(const ImportRequest& request, const Air& air) {
   switch (request.format) {
     case ImportFormat::webplotdigitizer:
       return fmt::format(
-          "Points read off a figure, imported from {}.{}", request.file.filename().string(),
+          "Points read off a figure, imported from {}.{}", source_name(request),
           request.reading_error.empty()
               ? ""
               : fmt::format(" Error of the reading: {} of an axis.", request.reading_error));
@@ -135,22 +140,22 @@ std::string description_of(const ImportRequest& request, const Air& air) {
       return fmt::format(
           "Drop and rebound heights, imported from {}: e = sqrt(h2 / h1), V = sqrt(2 "
           "g h1) with g = {} m/s2, {}.",
-          request.file.filename().string(), request.gravity, air_words(air));
+          source_name(request), request.gravity, air_words(air));
     case ImportFormat::intervals:
       return fmt::format(
           "Times between bounces, imported from {}: e is the ratio of successive "
           "intervals, V = g t / 2 with g = {} m/s2, {}.",
-          request.file.filename().string(), request.gravity, air_words(air));
+          source_name(request), request.gravity, air_words(air));
     case ImportFormat::track:
       return fmt::format(
           "Tracks of falling spheres, imported from {}: e and V where the parabolas before and "
           "after an impact meet{}.",
-          request.file.filename().string(),
+          source_name(request),
           request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
     case ImportFormat::csv:
       break;
   }
-  return fmt::format("Points imported from {}.", request.file.filename().string());
+  return fmt::format("Points imported from {}.", source_name(request));
 }
 
 Json sources_of(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
@@ -170,8 +175,8 @@ Json sources_of(const ImportRequest& request, const std::optional<ExistingPackag
       sources.push_back(source);
     }
   }
-  sources.push_back({{"title", fmt::format("{}, imported; its author is not stated",
-                                           request.file.filename().string())}});
+  sources.push_back(
+      {{"title", fmt::format("{}, imported; its author is not stated", source_name(request))}});
   return sources;
 }
 
@@ -207,7 +212,7 @@ std::string cell_of(const ImportedPoint& point, const PointsColumn& column) {
   if (column.quantity == Quantity::setting) return csv_cell(point.setting);
   if (column.quantity == Quantity::launch) return csv_cell(point.launch);
   const auto value = point.value[column.quantity];
-  return value ? fmt::format("{:.9g}", *value / column.factor) : "";
+  return value ? fmt::format("{:.12g}", *value / column.factor) : "";
 }
 
 }  // namespace
@@ -226,6 +231,14 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
     existing.units[column.name] = column.unit;
   }
   return existing;
+}
+
+FieldUnits usual_units() {
+  FieldUnits units;
+  for (const Quantity quantity : values_of<Quantity>()) {
+    units[to_string(quantity)] = column_of(quantity, false).unit;
+  }
+  return units;
 }
 
 PointsText points_text(const std::vector<ImportedPoint>& points) {

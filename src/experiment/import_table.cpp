@@ -4,14 +4,13 @@
 #include <iconv.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
 
-#include "core/child.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
+#include "experiment/workbook.hpp"
 
 namespace recoil {
 namespace {
@@ -83,11 +82,10 @@ std::string error_name(const std::string& quantity) {
   return quantity == "incident_velocity" ? "velocity_sd" : quantity + "_sd";
 }
 
-/// The text of the file in UTF-8.
-std::string utf8_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
-  std::string text = table_text(request, notes);
+/// `text` in UTF-8. A text that is not is read as Windows-1252.
+std::string utf8_text(std::string text, const std::string& file, std::vector<ImportNote>& notes) {
   try {
-    require_text(text, request.file.string());
+    require_text(text, file);
     return text;
   } catch (const InputError&) {
     const iconv_t converter = iconv_open("UTF-8", "WINDOWS-1252");
@@ -307,7 +305,8 @@ ImportedPoint imported_point(const std::string& series, int line, std::optional<
 }
 
 std::string default_series(const ImportRequest& request) {
-  return request.series.empty() ? request.file.stem().string() : request.series;
+  if (!request.series.empty()) return request.series;
+  return descriptor_named(request.file) ? "points" : request.file.stem().string();
 }
 
 std::optional<double> known_diameter(const ImportRequest& request, const std::string& series,
@@ -370,44 +369,35 @@ NumberFormat number_format(const ImportRequest& request) {
 }
 
 std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
-  if (!request.text.empty()) return request.text;
-  const std::filesystem::path& file = request.file;
-  std::error_code failed;
-  std::ifstream stream;  // of a pipe the first bytes cannot be read twice
-  if (std::filesystem::is_regular_file(file, failed)) stream.open(file, std::ios::binary);
-  char start[4] = {};
-  stream.read(start, sizeof start);
-  const std::string_view bytes(start, static_cast<std::size_t>(stream.gcount()));
+  const std::string file = request.file.string();
+  std::string bytes = read_bytes(request.file);
+  if (is_workbook(bytes)) {
+    Sheet sheet = read_sheet(bytes, file, request.sheet, request.decimal_comma ? ',' : '.');
+    ImportNote note{ImportRemark::sheet_read, {sheet.name}};
+    note.names.insert(note.names.end(), sheet.others.begin(), sheet.others.end());
+    notes.push_back(note);
+    return std::move(sheet.table);
+  }
+  if (!request.sheet.empty()) {
+    throw InputError({file}, "--sheet, but this is not a workbook", "recoil reads .xlsx and .ods",
+                     "leave the option out");
+  }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-    throw InputError({file.string()}, "this file is in UTF-16", "recoil reads UTF-8",
+    throw InputError({file}, "this file is in UTF-16", "recoil reads UTF-8",
                      "save it as UTF-8, or convert it: iconv -f UTF-16 -t UTF-8 FILE > NEW");
   }
-  if (!bytes.starts_with("PK\x03\x04") && !bytes.starts_with("\xD0\xCF\x11\xE0")) {
-    return read_text_file(file);
-  }
-  const std::string name = std::filesystem::absolute(file).string();
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"xlsx2csv", name},
-        std::vector<std::string>{"ssconvert", "--export-type=Gnumeric_stf:stf_csv", name,
-                                 "fd://1"}}) {
-    ChildOutcome converted = run_child(words, "", std::chrono::minutes(2));
-    if (converted.status != 0) continue;
-    notes.push_back({ImportRemark::workbook_converted, {words.front()}});
-    return std::move(converted.out);
-  }
-  throw InputError({file.string()}, "this is a workbook, and no program that reads it is installed",
-                   "recoil reads CSV",
-                   "save the sheet as CSV, or install the package xlsx2csv or gnumeric");
+  return utf8_text(as_text(std::move(bytes), request.file), file, notes);
 }
 
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes) {
   const std::string file = request.file.string();
-  std::string text = utf8_text(request, notes);
+  std::string text = *request.text;
   Lines lines = lines_of(text);
   const std::optional<char> stated = take_separator(text, lines);
   const char delimiter = stated ? *stated : likely_delimiter(lines, number_format(request));
   blank_comments(text, lines, delimiter, request, notes);
   std::vector<CsvRow> rows;
+  rows.reserve(lines.size());
   read_csv(text, file, delimiter, [&](const CsvRow& row) {
     const bool empty =
         std::ranges::all_of(row, [](const CsvField& cell) { return cell.text.empty(); });
@@ -460,6 +450,7 @@ void ImportTable::read_header() {
     rows_.erase(rows_.begin());
   }
   header_ = rows_.front();
+  for (CsvField& cell : header_) cell.text = trimmed(with_plain_blanks(cell.text));
   named_ = !std::ranges::all_of(header_, [&](const CsvField& cell) {
     return cell.text.empty() || parse_number(cell.text, format_);
   });
@@ -612,8 +603,10 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
   if (name.empty() && pure) name = "1";
   if (name.empty() && factor) return {factor->first};
   if (name.empty()) {
-    throw InputError(cell.in(file_), fmt::format("the unit of {} is not stated", quote(cell.text)),
-                     "", fmt::format("write --map {}={}:UNIT", quantity.name, listed({cell.text})));
+    throw InputError(
+        cell.in(file_), fmt::format("the unit of {} is not stated", quote(cell.text)), "",
+        fmt::format("write --map {}", shell_word(fmt::format("{}=\"{}\":UNIT", quantity.name,
+                                                             shortened(cell.text, 40)))));
   }
   Scale scale = known_scale(quantity.dimension, name, quantity.name, cell.in(file_));
   if (factor) scale.factor *= factor->first;
@@ -742,7 +735,12 @@ std::vector<std::string> ImportTable::unused() const {
   for (const auto& [quantity, source] : columns_) used.insert(source.at.begin(), source.at.end());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < header_.size(); ++i) {
-    if (!used.contains(i)) names.push_back(header_[i].text);
+    const auto filled = [&](const CsvRow& row) { return !row[i].text.empty(); };
+    if (used.contains(i) || (header_[i].text.empty() && std::ranges::none_of(rows_, filled))) {
+      continue;
+    }
+    names.push_back(header_[i].text.empty() ? fmt::format("{} (no header)", i + 1)
+                                            : header_[i].text);
   }
   return names;
 }

@@ -82,15 +82,16 @@ double gravity_of(const ImportRequest& request);
 /// The notation of numbers in the file.
 NumberFormat number_format(const ImportRequest& request);
 
-/// The rows of the request's file. The delimiter is the tab, semicolon, comma, bar or blank that
+/// The rows of the request's text. The delimiter is the tab, semicolon, comma, bar or blank that
 /// gives all lines the same number of cells; a first line `sep=;` states it. Lines that begin with
-/// '#' are comments, except for a header. A file that is not UTF-8 is read as Windows-1252.
+/// '#' are comments, except for a header.
 /// @param notes gets what was skipped or assumed
 /// @throws InputError if the file has no rows
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes);
 
-/// The text of the request's file, or of the first sheet of a workbook, converted by xlsx2csv or
-/// ssconvert. @throws InputError for a workbook if neither is installed, and for UTF-16
+/// The text of the request's file in UTF-8. A file in another encoding is read as Windows-1252. A
+/// sheet of a workbook becomes a table separated by tabs.
+/// @throws InputError as `read_bytes` and `read_sheet`, and for UTF-16
 std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes);
 
 /// A quantity of a format.

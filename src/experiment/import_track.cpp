@@ -116,6 +116,7 @@ struct Parabolas {
   Eigen::VectorXd values;
   Eigen::MatrixXd covariance;         ///< divided by the variance of a height
   double variance = 0.0;              ///< of a height, from the residuals
+  double freedom = 0.0;               ///< degrees of freedom of the variance
   std::vector<std::ptrdiff_t> first;  ///< index of c_k of every arc; -1 for one that is not good
 };
 
@@ -147,8 +148,8 @@ Parabolas fit_parabolas(const std::vector<Sample>& samples, const std::vector<Ar
   fit.values = solver.solve(heights);
   fit.covariance = (design.transpose() * design).inverse();
   if (rows > unknowns) {
-    fit.variance =
-        (heights - design * fit.values).squaredNorm() / static_cast<double>(rows - unknowns);
+    fit.freedom = static_cast<double>(rows - unknowns);
+    fit.variance = (heights - design * fit.values).squaredNorm() / fit.freedom;
   }
   return fit;
 }
@@ -212,12 +213,17 @@ class TrackReader {
     const double a = fit.values(fit.values.size() - 1);
     if (!(a > 0.0)) return;
     falls_.push_back(a);
+    squares_ += fit.variance * fit.freedom;
+    freedom_ += fit.freedom;
     for (std::size_t k = 0; k < impacts.size(); ++k) {
       if (!arcs[k].good || !arcs[k + 1].good || !add_point(track, impacts[k], arcs, k, fit)) {
         ++skipped_;
       }
     }
   }
+
+  /// The variance of a height about the parabolas of all balls; infinite without a flight.
+  double variance() const { return freedom_ > 0.0 ? squares_ / freedom_ : INFINITY; }
 
   ImportedPoints result() {
     if (out_.points.empty()) {
@@ -283,6 +289,8 @@ class TrackReader {
   bool scaled_;
   double gravity_;
   std::vector<double> falls_;  ///< a of each ball [m/s2], or pixels/s2
+  double squares_ = 0.0;       ///< of the residuals
+  double freedom_ = 0.0;
   std::size_t skipped_ = 0;
   ImportedPoints out_;
 };
@@ -314,12 +322,6 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
     }
     samples.push_back({seconds, *height * (pixels ? pixel : 1.0), table.line(r)});
   }
-  if (!pixels) return tracks;
-  // Most programs count rows of a picture downward. The sign of the acceleration tells.
-  for (Track& track : tracks) {
-    if (!(median(differences(track.samples, 2)) > 0.0)) continue;
-    for (Sample& sample : track.samples) sample.height = -sample.height;
-  }
   return tracks;
 }
 
@@ -343,10 +345,19 @@ ImportedPoints read_track(const ImportRequest& request) {
     throw InputError({}, "--scale without pixels", "heights have a unit of their own",
                      "leave it out, or name the column with --map pixel=COLUMN");
   }
-  const std::vector<Track> tracks = read_tracks(table, request);
-  TrackReader reader(request, table.has("height") || !request.scale.empty(), table.notes());
-  for (const Track& track : tracks) reader.read(track);
-  return reader.result();
+  std::vector<Track> tracks = read_tracks(table, request);
+  const bool scaled = table.has("height") || !request.scale.empty();
+  TrackReader upward(request, scaled, table.notes());
+  TrackReader downward(request, scaled, table.notes());
+  for (Track& track : tracks) {
+    upward.read(track);
+    for (Sample& sample : track.samples) sample.height = -sample.height;
+    downward.read(track);
+  }
+  if (!(downward.variance() < upward.variance())) return upward.result();
+  ImportedPoints points = downward.result();
+  if (table.has("height")) points.notes.push_back({ImportRemark::axis_points_down});
+  return points;
 }
 
 }  // namespace recoil

@@ -102,16 +102,19 @@ std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
 
 }  // namespace
 
-FitSpec with_fitted_loss(FitSpec spec, const std::string& path) {
-  if (path.empty() || (!spec.loss.empty() && spec.loss != "auto")) return spec;
-  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
-  return with_loss(std::move(spec), fit.options.loss);
+std::optional<FitFile> read_parameters(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  return read_fit_file(path, read_text_file(path), "--parameters");
+}
+
+FitSpec with_fitted_loss(FitSpec spec, const std::optional<FitFile>& fit) {
+  if (!fit || (!spec.loss.empty() && spec.loss != "auto")) return spec;
+  return with_loss(std::move(spec), fit->options.loss);
 }
 
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
-                                            const std::string& path) {
-  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
+                                            const FitFile& fit, const std::string& path) {
   check_data(fit, datasets, path);
   const std::map<std::string, FittedValue> fitted = values_by_name(fit);
   std::vector<FittedValue> values;

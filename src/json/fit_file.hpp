@@ -503,16 +503,20 @@ struct FittedValue {
   std::optional<double> std_error;
 };
 
-/// `spec` with the loss of the dry contact from the fit.json `path`, if the fit file leaves the
-/// loss to the points. An empty path changes nothing.
+/// Reads the fit.json of `--parameters`. @returns nullopt for an empty path
 /// @throws InputError if the file is not a fit.json
-FitSpec with_fitted_loss(FitSpec spec, const std::string& path);
+std::optional<FitFile> read_parameters(const std::string& path);
+
+/// `spec` with the loss of the dry contact that `fit`, if there is one, chose, where the fit file
+/// leaves the loss to the points.
+FitSpec with_fitted_loss(FitSpec spec, const std::optional<FitFile>& fit);
 
 /// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots].
 /// @param datasets the datasets of the fit file; the values must have been fitted to the same files
-/// @throws InputError if the file is not a fit.json, or belongs to another fit
+/// @param path the file's name in messages
+/// @throws InputError if the values belong to another fit
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
-                                            const std::string& path);
+                                            const FitFile& fit, const std::string& path);
 
 }  // namespace recoil

@@ -213,8 +213,8 @@ struct Valued {
 Valued model_of(const FitInputs& inputs, const std::string& parameters) {
   Valued out = {make_model(inputs.spec, inputs.datasets), inputs.datasets, inputs.spec.id,
                 "the initial values of the fit file"};
-  if (!parameters.empty()) {
-    take_fitted_values(out.model, inputs.datasets, parameters);
+  if (const auto fitted = read_parameters(parameters)) {
+    take_fitted_values(out.model, inputs.datasets, *fitted, parameters);
     out.values = parameters;
   }
   return out;
@@ -363,6 +363,7 @@ std::pair<std::string, std::string> compared(
     const std::vector<std::pair<std::string, std::string>>& named_texts) {
   std::vector<ComparedFit> fits;
   for (const auto& [name, text] : named_texts) fits.push_back(compared_fit(name, text));
+  fits = told_apart(std::move(fits));
   return {comparison_json(fits), terminal_text(comparison_sections(fits))};
 }
 

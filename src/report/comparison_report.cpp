@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -189,6 +190,17 @@ std::optional<double> ComparedFit::aicc() const {
   const int k = free_parameters;
   if (!minus_two_log_likelihood || points - k - 1 <= 0) return std::nullopt;
   return *minus_two_log_likelihood + 2.0 * k + 2.0 * k * (k + 1.0) / (points - k - 1.0);
+}
+
+std::vector<ComparedFit> told_apart(std::vector<ComparedFit> fits) {
+  std::map<std::string, std::vector<ComparedFit*>> same;
+  for (ComparedFit& fit : fits) same[fit.id].push_back(&fit);
+  for (const auto& [id, members] : same) {
+    for (std::size_t k = 0; k < members.size() && members.size() > 1; ++k) {
+      members[k]->id += fmt::format(" ({})", k + 1);
+    }
+  }
+  return fits;
 }
 
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {

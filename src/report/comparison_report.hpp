@@ -70,6 +70,9 @@ struct ChoiceDependence {
 };
 ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits);
 
+/// The same fits, with numbers in the ids that several have: "fit (1)", "fit (2)".
+std::vector<ComparedFit> told_apart(std::vector<ComparedFit> fits);
+
 /// The comparison of at least two fits: their quality, their quantities, and which quantities
 /// depend on the choice of the fit.
 /// @throws InputError if the fits are not of the same data

@@ -232,7 +232,7 @@ Section answer_section(const Diagnosis& d) {
   answer.blocks = {Paragraph{strong(headline(d) + "."), true},
                    Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
                    Paragraph{join(restitution_sentences(summary, d.datasets), " ")}};
-  append(answer.blocks, provenance_banners(d.datasets));
+  append(answer.blocks, data_banners(d.datasets));
   return answer;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "data/text.hpp"
 #include "document/html.hpp"
 #include "report/comparison_report.hpp"
 #include "report/diagnosis_report.hpp"
@@ -28,9 +29,9 @@ constexpr std::size_t fewest_rows_of_answer = 3;
 
 /// "ammonium fluorescein on molybdenum, 60 points"
 Sentence subtitle_of(const Analysis& a) {
-  return say("{} on {}, {} points", a.datasets.front().system.particle.name,
+  return say("{} on {}, {}", a.datasets.front().system.particle.name,
              joined(a.datasets, ", ", [](const Dataset& d) { return d.system.surface.name; }),
-             a.fitted.data.points.size());
+             counted(a.fitted.data.points.size(), "point"));
 }
 
 /// "Spheres of 4.9 um stick below 0.958 m/s [0.912, 0.984]."
@@ -286,7 +287,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   const RestitutionSummary summary = summarise_restitution(a.datasets);
   answer.blocks = {Paragraph{join(leads, " "), true},
                    Paragraph{join(restitution_sentences(summary, a.datasets), " ")}};
-  append(answer.blocks, provenance_banners(a.datasets));
+  append(answer.blocks, data_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back(shown_section("picture", "", {answer_figures(a, panels)}));
   sections.push_back(shown_section("capture", "Capture velocity", {capture_table(a)}));

@@ -7,6 +7,7 @@
 
 #include "core/json.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "estimate/model.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
@@ -102,9 +103,9 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
 std::size_t drawn_every(const Panel& panel) { return panel.points.size() / most_panel_points + 1; }
 
 Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
-  Sentence text = say("{} on {}: {} point{}.", diameter_sentence(panel.diameter),
-                      short_name(analysis.datasets, panel.dataset), panel.points.size(),
-                      panel.points.size() == 1 ? "" : "s");
+  Sentence text =
+      say("{} on {}: {}.", diameter_sentence(panel.diameter),
+          short_name(analysis.datasets, panel.dataset), counted(panel.points.size(), "point"));
   if (drawn_every(panel) > 1) text += fmt::format(" One point in {} is drawn.", drawn_every(panel));
   if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
     text += fmt::format(" {}", mean_curve_words);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
 #include "report/words_fit.hpp"
@@ -65,8 +66,8 @@ Cell degrees_of_freedom_cell(const FitResult& f) {
   if (!f.data.noise.sd_stated || f.data.noise.spec.student || excluded <= 0) {
     return whole(std::max(0, f.dof));
   }
-  return say("{} ({} captured point{} excluded)", std::max(0, f.dof), excluded,
-             excluded == 1 ? " is" : "s are");
+  return say("{} ({} excluded)", std::max(0, f.dof),
+             counted(excluded, "captured point is", "captured points are"));
 }
 
 std::string_view strategy_words(Strategy strategy) {

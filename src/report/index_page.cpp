@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "json/fit_file.hpp"
 #include "report/fit_report.hpp"
@@ -119,12 +120,12 @@ Blocks verdict_of(const IndexEntry& entry) {
 
 Section card_of(const IndexEntry& entry, const FitFile& fit) {
   const std::string title = fit.datasets.size() == 1 ? fit.datasets.front().title : "";
-  Section card{
-      fit.fit.id,
-      title.empty() ? fit.fit.id : title,
-      say("{}: {} points, {}", fit.fit.id, fit.dataset.points, provenances_of(fit.datasets)),
-      {},
-      entry.page};
+  Section card{fit.fit.id,
+               title.empty() ? fit.fit.id : title,
+               say("{}: {}, {}", fit.fit.id, counted(fit.dataset.points, "point"),
+                   provenances_of(fit.datasets)),
+               {},
+               entry.page};
   append(card.blocks, verdict_of(entry));
   if (!entry.picture.empty()) {
     Figure picture{"picture", "", {}, entry.picture};

@@ -8,6 +8,7 @@
 
 #include "core/json.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "document/terminal.hpp"
 #include "experiment/flight.hpp"
 #include "report/result_json.hpp"
@@ -22,32 +23,30 @@ constexpr double doubtful_purity = 0.9;  // a smaller share of correct pairs cau
 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
-const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
-
 Section rows_section(const PassageTable& table) {
   Section section{"file", "Passages"};
-  section.blocks = {
-      Paragraph{say("{}: {} passages in {} rows; {}", table.file, table.passages.size(), table.rows,
-                    joined(table.units, ", ", [](const FieldUnit& field) {
-                      return fmt::format("{} [{}]", field.field, field.unit);
-                    }))}};
+  section.blocks = {Paragraph{
+      say("{}: {} in {}; {}", table.file, counted(table.passages.size(), "passage"),
+          counted(table.rows, "row"), joined(table.units, ", ", [](const FieldUnit& field) {
+            return fmt::format("{} [{}]", field.field, field.unit);
+          }))}};
   List left_out;
   if (table.damaged > 0) {
-    left_out.entries.push_back(
-        say("{} damaged row{} left out ({})", table.damaged, plural(table.damaged),
-            joined(table.first_damaged, "; ", [&](const BadRow& row) {
-              return fmt::format("{}:{}: {}", table.file, row.line, row.problem);
-            })));
+    left_out.entries.push_back(say("{} left out ({})", counted(table.damaged, "damaged row"),
+                                   joined(table.first_damaged, "; ", [&](const BadRow& row) {
+                                     return fmt::format("{}:{}: {}", table.file, row.line,
+                                                        row.problem);
+                                   })));
   }
   if (table.duplicated > 0) {
-    left_out.entries.push_back(
-        say("{} repeated row{} left out ({})", table.duplicated, plural(table.duplicated),
-            joined(table.first_duplicated, ", ",
-                   [&](int line) { return fmt::format("{}:{}", table.file, line); })));
+    left_out.entries.push_back(say("{} left out ({})", counted(table.duplicated, "repeated row"),
+                                   joined(table.first_duplicated, ", ", [&](int line) {
+                                     return fmt::format("{}:{}", table.file, line);
+                                   })));
   }
   if (table.unsorted > 0) {
-    left_out.entries.push_back(say("{} row{} out of order, sorted by time (first: {}:{})",
-                                   table.unsorted, plural(table.unsorted), table.file,
+    left_out.entries.push_back(say("{} out of order, sorted by time (first: {}:{})",
+                                   counted(table.unsorted, "row"), table.file,
                                    table.first_unsorted));
   }
   if (!table.ignored.empty()) {
@@ -216,13 +215,12 @@ Section points_section(const Averages& averages) {
                     averages.points.size(), 100.0 * averages.narrowest)}};
   List left_out;
   if (averages.outside_sizes > 0) {
-    left_out.entries.push_back(
-        say("{} impacts lie outside the size classes", averages.outside_sizes));
+    left_out.entries.push_back(counted(averages.outside_sizes, "impact lies", "impacts lie") +
+                               " outside the size classes");
   }
   if (averages.in_small_bins > 0) {
-    left_out.entries.push_back(
-        say("{} impacts are isolated in velocity, fewer than 5 together, and are left out",
-            averages.in_small_bins));
+    left_out.entries.push_back(counted(averages.in_small_bins, "impact is", "impacts are") +
+                               " isolated in velocity, fewer than 5 together: left out");
   }
   append(section.blocks, {std::move(left_out), averages_table(averages)});
   if (averages.points.size() > most_rows) {

@@ -51,19 +51,24 @@ std::string provenance_sentence(Provenance provenance) {
   return phrase_for(phrases, provenance).words;
 }
 
-std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets) {
+std::vector<Block> data_banners(const std::vector<Dataset>& datasets) {
   std::vector<Block> banners;
   for (const auto& [label, sentence] : provenances(datasets)) {
     banners.emplace_back(Banner{label, sentence});
+  }
+  for (const Dataset& dataset : datasets) {
+    for (const DatasetWarning& warning : dataset.warnings) {
+      if (warning.remark != PointRemark::unmarked_zero) continue;
+      banners.emplace_back(Paragraph{as_sentence(Sentence(warning_sentence(warning)))});
+    }
   }
   return banners;
 }
 
 std::string warning_sentence(const DatasetWarning& warning) {
   const auto points_with = [&](const char* what, const char* advice) {
-    const bool one = warning.count == 1;
-    return fmt::format("{} point{} with {} ({} line {}): {}", warning.count, one ? "" : "s", what,
-                       one ? "in" : "first in", warning.first_line, advice);
+    return fmt::format("{} with {} ({} line {}): {}", counted(warning.count, "point"), what,
+                       warning.count == 1 ? "in" : "first in", warning.first_line, advice);
   };
   switch (warning.remark) {
     case PointRemark::restitution_above_one:
@@ -71,12 +76,15 @@ std::string warning_sentence(const DatasetWarning& warning) {
                          "kept, since noise can cause it; energy cannot be gained");
     case PointRemark::unmarked_zero:
       return points_with("a restitution of 0 that is not marked as captured",
-                         "taken as a rebound; mark captures in the column 'captured'");
+                         "taken as captured, since no rebound has a velocity of 0");
     case PointRemark::unusual_diameter:
       return points_with("a diameter above 1 mm", "kept; check the unit if these are microspheres");
     case PointRemark::repeated:
       return points_with("the same series, diameter, velocity and restitution as an earlier one",
                          "kept; a point copied by accident counts twice");
+    case PointRemark::other_bytes:
+      return "the file of the points has another size or hash than datapackage.json states: it was "
+             "changed since; correct 'bytes' and 'hash' there, or remove them";
   }
   return "";
 }
@@ -132,8 +140,14 @@ std::string note_sentence(const ImportNote& note) {
   switch (note.remark) {
     case encoding_assumed:
       return "the file is not UTF-8 and was read as Windows-1252: check names with accents";
-    case workbook_converted:
-      return fmt::format("the first sheet of the workbook was read by {}", names);
+    case sheet_read: {
+      std::vector<std::string> others = note.names;
+      const std::string read = quote(others.front());
+      others.erase(others.begin());
+      return others.empty() ? fmt::format("the sheet {} was read", read)
+                            : fmt::format("the sheet {} was read; --sheet NAME reads another: {}",
+                                          read, listed(others));
+    }
     case lines_skipped:
       return fmt::format("skipped as a comment or title: {}", names);
     case rows_left_out:
@@ -182,21 +196,23 @@ std::string note_sentence(const ImportNote& note) {
           "the Reynolds number of the fastest impact, {:.2g}, is beyond the drag law (up to 2e5)",
           note.air.reynolds);
     case bounces_missing:
-      return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
-                         note.count, note.count == 1 ? "pair" : "pairs");
+      return counted(note.count, "pair") +
+             " of intervals left out, because a bounce between them is missing";
     case release_heights:
       return fmt::format(
           "check of the release heights (extra fall that makes the first bounce equal the second): "
           "{}. An equal difference at all heights points to an offset of the scale",
           joined(note.releases, "; ", release_words));
     case impacts_skipped:
-      return fmt::format("{} impact{} left out: fewer than four samples of free flight on one side",
-                         note.count, note.count == 1 ? "" : "s");
+      return counted(note.count, "impact") +
+             " left out: fewer than four samples of free flight on one side";
     case track_fall:
       return fmt::format(
           "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is "
           "wrong, or air drag is large; e does not depend on the scale, V does",
           note.fall, note.gravity);
+    case axis_points_down:
+      return "the heights are taken as measured downward: only so are the flights parabolas of a fall";
     case drag_stays:
       return "the effect of air drag on the tracks was not removed";
     case shared_bounces:

@@ -14,8 +14,9 @@ namespace recoil {
 /// One sentence about the origin of the points.
 std::string provenance_sentence(Provenance provenance);
 
-/// One banner for each provenance among the datasets.
-std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets);
+/// What the reader has to know about the points first: a banner for each provenance among the
+/// datasets, and a sentence about restitutions of 0 that count as captures.
+std::vector<Block> data_banners(const std::vector<Dataset>& datasets);
 
 /// A warning about points: "2 points with a restitution above 1 (first in line 5): ...".
 std::string warning_sentence(const DatasetWarning& warning);

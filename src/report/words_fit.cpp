@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "data/text.hpp"
 #include "estimate/input_errors.hpp"
-#include "estimate/reweighting.hpp"
 #include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
@@ -84,8 +84,8 @@ std::string input_words(const FitResult& fitted) {
   }
   if (count == 0) return "";
   return fmt::format(
-      "; errors of velocity and diameter add up to {:.2g} standard deviations of e at {} points",
-      most, count);
+      "; errors of velocity and diameter add up to {:.2g} standard deviations of e at {}", most,
+      counted(count, "point"));
 }
 
 std::string setting_words(const FitResult& fitted) {
@@ -93,9 +93,9 @@ std::string setting_words(const FitResult& fitted) {
   const double sd = fitted.weights.noise.setting_sd;
   if (!data.share(SharedBy::setting)) return "";
   const SettingCount count = count_settings(data);
-  const std::string source = fmt::format("{}, {} settings, {} points",
-                                         data.noise.setting_sd_estimated ? "estimated" : "stated",
-                                         count.settings, count.points);
+  const std::string source =
+      fmt::format("{}, {}, {}", data.noise.setting_sd_estimated ? "estimated" : "stated",
+                  counted(count.settings, "setting"), counted(count.points, "point"));
   if (setting_velocity_error().acts(data) && !(sd > 0.0)) {
     return fmt::format("; the points of one setting share its stated error of velocity ({})",
                        source);
@@ -175,9 +175,9 @@ Sentences setting_warnings(const FitResult& fitted) {
   const int settings = count_settings(data).settings;
   return {
       fmt::format("the points of one setting may share an error, such as that of a drop height; {} "
-                  "setting{} cannot determine it, and the intervals do not include it: state "
+                  "cannot determine it, and the intervals do not include it: state "
                   "setting_velocity_sd or setting_sd",
-                  settings, settings == 1 ? "" : "s")};
+                  counted(settings, "setting"))};
 }
 
 /// A standard deviation from n impacts has a relative error of 1 / sqrt(2 (n - 1)), which is about
@@ -188,25 +188,24 @@ constexpr int few_impacts = 15;
 Sentences data_warnings(const Observations& data) {
   if (data.noise.sd_stated && data.noise.sd_missing > 0) {
     return {
-        fmt::format("{} points state no restitution_sd; their single impacts are assumed to "
-                    "scatter like the median of the others",
-                    data.noise.sd_missing)};
+        counted(data.noise.sd_missing, "point states", "points state") +
+        " no restitution_sd; single impacts are assumed to scatter there like the median of the "
+        "others"};
   }
   const auto few = std::count_if(data.points.begin(), data.points.end(), [](const auto& point) {
     return point.rebounds() > 1 && point.rebounds() < few_impacts;
   });
   if (data.noise.sd_stated && few > 0) {
     return {fmt::format(
-        "{} points average fewer than {} impacts: if their restitution_sd were computed from these "
+        "{} fewer than {} impacts: if their restitution_sd were computed from these "
         "alone, the intervals are too narrow; pool the deviations of all points, or let the fit "
         "estimate them ([noise] variance = \"constant\")",
-        few, few_impacts)};
+        counted(few, "point averages", "points average"), few_impacts)};
   }
   if (data.noise.sd_stated || data.noise.sd_set_aside == 0) return {};
-  return {
-      fmt::format("the restitution_sd of {} points is ignored: the fit file requests an "
-                  "estimated variance",
-                  data.noise.sd_set_aside)};
+  return {fmt::format(
+      "the restitution_sd of {} is ignored: the fit file requests an estimated variance",
+      counted(data.noise.sd_set_aside, "point"))};
 }
 
 /// Warnings about parameters that the fit does not determine.
@@ -246,16 +245,16 @@ Sentences weight_warnings(const FitResult& fitted) {
   if (!fitted.weights_at_rest) warnings.emplace_back("reweighting did not converge");
   if (fitted.strained_points > 0) {
     warnings.push_back(fmt::format(
-        "at {} points near capture the errors of velocity or diameter are too large for their "
-        "first-order treatment (bias above {:.1g} standard deviations)",
-        fitted.strained_points, strained_bias));
+        "at {} near capture the errors of velocity or diameter are too large for their first-order "
+        "treatment (bias above {:.1g} standard deviations)",
+        counted(fitted.strained_points, "point"), strained_bias));
   }
   if (fitted.unused_counts) {
     const Mechanism* const mechanism = fitted.unused_counts->mechanism;
     warnings.push_back(fmt::format(
-        "captured counts at {} points with rebounds are not used, because {} already describe{} "
-        "how impacts differ",
-        fitted.unused_counts->points,
+        "captured counts at {} with rebounds are not used, because {} already describe{} how "
+        "impacts differ",
+        counted(fitted.unused_counts->points, "point"),
         mechanism == nullptr ? "the stated sizes" : std::string(mechanism->info.id),
         mechanism == nullptr ? "" : "s"));
   }

@@ -45,6 +45,69 @@ TEST(Simulate, HertzWithHuntCrossleyDampingToNineDigits) {
   EXPECT_NEAR(number_after(run.out, "rebound  "), 100.0 * 0.9374755799 * 0.9374755799, 2e-5);
 }
 
+/// `recoil` with `words`, the file `text` in a pipe as standard input.
+Outcome piped(const Workplace& place, const std::string& text, const std::string& words) {
+  return support::run_command({"bash", "-c", "cat " + text + " | \"$0\" " + words, RECOIL_BINARY},
+                              place.path());
+}
+
+TEST(Pipes, EveryInputMayBeOne) {
+  const Workplace place;
+  place.write("t.csv", "V,e\n1,0.5\n2,0.7\n4,0.8\n");
+  place.write("p.csv", "incident_velocity,restitution\n1,0.5\n2,0.7\n4,0.8\n");
+  place.write("sizes.csv", "diameter,count\n4.9,3\n5.0,2\n");
+  const std::string import =
+      " --format csv --map incident_velocity=V:m/s,restitution=e --like data --diameter 5um "
+      "--provenance measured --into ";
+  Outcome run = piped(place, "t.csv", "import -" + import + "a");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "t.csv", "import /dev/stdin" + import + "b");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "t.csv", "import <(cat t.csv)" + import + "c");
+  EXPECT_EQ(run.status, 0) << run.err;
+  for (const std::string made : {"b", "c"}) {
+    EXPECT_EQ(place.read(made + "/points.csv"), place.read("a/points.csv"));
+  }
+  EXPECT_NE(place.read("a/points.csv").find("points,5,4,0.8\n"), std::string::npos);
+  run = piped(place, "p.csv", "init d --points - --provenance measured --like data --diameter 5");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(place.read("d/points.csv"), place.read("a/points.csv"));
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "r"}).status, 0);
+  run = piped(place, "r/fit.json", "compare - r/fit.json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "r/fit.json", "simulate fit.toml --parameters - --velocity 8 --diameter 4.9");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "sizes.csv", "predict fit.toml --sizes - --replicates 0 --height 1");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "fit.toml", "fit - --replicates 0");
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = piped(place, "/dev/null", "import -" + import + "e");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "-:1:1: the file is empty; export the points again\n");
+}
+
+TEST(Fit, SpheresThatStuckAreNoReboundsOfZero) {
+  // Spheres stick below 1.27 m/s, the truth of these points; people write e = 0 for those.
+  const Workplace place;
+  place.write("p.csv",
+              "incident_velocity,restitution,restitution_sd\n0.7,0,0.01\n1.0,0,0.01\n"
+              "1.6,0.522,0.01\n2.4,0.725,0.01\n4.0,0.829,0.01\n7.0,0.866,0.01\n12,0.868,0.01\n"
+              "20,0.852,0.01\n");
+  ASSERT_EQ(place
+                .run({"init", "z", "--points", "p.csv", "--particle", "polystyrene", "--surface",
+                      "silicon", "--diameter", "4.9", "--provenance", "measured"})
+                .status,
+            0);
+  const Outcome json = place.run({"fit", "z/fit.toml", "--replicates", "0", "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto fitted = nlohmann::json::parse(json.out);
+  const double capture = fitted["derived"]["capture_velocity"][0]["value"];
+  EXPECT_GT(capture, 1.0);
+  EXPECT_LT(capture, 1.6);
+  const Outcome screen = place.run({"fit", "z/fit.toml", "--replicates", "0"});
+  EXPECT_NE(screen.out.find("2 points with a restitution of 0"), std::string::npos) << screen.out;
+}
+
 TEST(Simulate, BudgetAddsUpToTheWhole) {
   const Workplace place;
   const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "8", "--diameter", "4.9"});

@@ -193,6 +193,25 @@ TEST_F(Files, APipeIsReadAndOneWithoutAWriterIsNotWaitedForLong) {
   EXPECT_NE(read_failure("/dev/zero", 1000).find("has more than"), std::string::npos);
 }
 
+TEST_F(Files, ANamedDescriptorIsReadToItsEnd) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  EXPECT_EQ(write(ends[1], "all of it", 9), 9);
+  close(ends[1]);
+  const std::string name = "/dev/fd/" + std::to_string(ends[0]);
+  EXPECT_EQ(descriptor_named(name), ends[0]);
+  EXPECT_EQ(read_text_file(name), "all of it");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(read_text_file(name), "");  // at its end, it is not waited for
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  close(ends[0]);
+  EXPECT_EQ(descriptor_named("-"), 0);
+  EXPECT_EQ(descriptor_named("/dev/stdin"), 0);
+  for (const char* const other : {"/dev/null", "/dev/fd/x", "/dev/fd/", "a/dev/fd/3", "./-"}) {
+    EXPECT_EQ(descriptor_named(other), std::nullopt) << other;
+  }
+}
+
 TEST_F(Files, AskingWhetherAFolderCanBeWrittenMakesNothing) {
   require_writable_folder(folder_ / "new" / "deeper");
   EXPECT_FALSE(fs::exists(folder_ / "new"));
@@ -231,6 +250,14 @@ TEST_F(Files, ThatBelongTogetherAreReplacedTogetherOrNotAtAll) {
 }
 
 // FIPS 180-4 examples and NIST's long one, as published at csrc.nist.gov.
+TEST(Hash, KnownAnswers) {
+  // Of "abc": RFC 1321, FIPS 180-4.
+  EXPECT_EQ(hash_hex("md5", "abc"), "900150983cd24fb0d6963f7d28e17f72");
+  EXPECT_EQ(hash_hex("sha1", "abc"), "a9993e364706816aba3e25717850c26c9cd0d89d");
+  EXPECT_EQ(hash_hex("sha512", "abc").substr(0, 32), "ddaf35a193617abacc417349ae204131");
+  EXPECT_EQ(hash_hex("crc32", "abc"), "");
+}
+
 TEST(Sha256, KnownAnswers) {
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -333,6 +333,51 @@ TEST(LoadDataset, WarnsOncePerPeculiarity) {
   expect(3, PointRemark::repeated, 1, 5);
 }
 
+TEST(LoadDataset, ARestitutionOfZeroIsACapture) {
+  const std::string header =
+      "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
+  const Dataset dataset = load_dataset(
+      DatasetFolder(example::package, header + "a,5,1,0,0.01,,,\na,5,2,0,,,20,\na,5,3,0.5,,,,\n")
+          .path());
+  EXPECT_EQ(dataset.points[0].captured, 1);
+  EXPECT_EQ(dataset.points[1].captured, 20);
+  EXPECT_EQ(dataset.points[2].captured, 0);
+  ASSERT_EQ(dataset.warnings.size(), 1U);
+  EXPECT_EQ(dataset.warnings[0].remark, PointRemark::unmarked_zero);
+  EXPECT_EQ(dataset.warnings[0].count, 2U);
+  // A capture that is marked needs no word, and one that is denied is a contradiction.
+  EXPECT_TRUE(load_dataset(
+                  DatasetFolder(example::package, header + "a,5,1,0,,,,1\na,5,2,,,,20,20\n").path())
+                  .warnings.empty());
+  for (const std::string row : {"a,5,1,0,,,,0\n", "a,5,1,0,,,20,5\n"}) {
+    const DatasetFolder folder(example::package, header + row);
+    EXPECT_NE(support::message_of([&] {
+                load_dataset(folder.path());
+              }).find("points.csv:2:7: a rebound of 0 although 'captured' is "),
+              std::string::npos)
+        << row;
+  }
+}
+
+TEST(LoadDataset, SaysThatThePointsAreAnotherFile) {
+  const auto warns = [](const std::string& stated) {
+    const DatasetFolder folder(changed(example::package, "\"path\": \"points.csv\"",
+                                       "\"path\": \"points.csv\", " + stated));
+    const Dataset dataset = load_dataset(folder.path());
+    return !dataset.warnings.empty() && dataset.warnings.back().remark == PointRemark::other_bytes;
+  };
+  const std::string right = sha256_hex(example::points);
+  EXPECT_FALSE(warns("\"bytes\": " + std::to_string(example::points.size())));
+  EXPECT_TRUE(warns("\"bytes\": " + std::to_string(example::points.size() + 1)));
+  EXPECT_FALSE(warns("\"hash\": \"sha256:" + right + "\""));
+  EXPECT_TRUE(warns("\"hash\": \"sha256:" + right.substr(1) + "0\""));
+  EXPECT_TRUE(warns("\"hash\": \"d41d8cd98f00b204e9800998ecf8427e\""));  // md5 of no bytes
+  const DatasetFolder folder(changed(example::package, "\"path\": \"points.csv\"",
+                                     "\"path\": \"points.csv\", \"hash\": \"crc32:0\""));
+  EXPECT_NE(support::message_of([&] { load_dataset(folder.path()); }).find("a hash by 'crc32'"),
+            std::string::npos);
+}
+
 TEST(LoadDataset, DistinctDiametersAscend) {
   const DatasetFolder folder;
   const auto diameters = distinct_diameters(load_dataset(folder.path()));

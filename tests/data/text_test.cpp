@@ -14,6 +14,20 @@ TEST(Text, UnitsFollowNumbersButForPureNumbers) {
   EXPECT_EQ(unit_suffix(""), "");
 }
 
+TEST(Text, OneIsSingular) {
+  EXPECT_EQ(counted(0, "point"), "0 points");
+  EXPECT_EQ(counted(1, "point"), "1 point");
+  EXPECT_EQ(counted(2, "point"), "2 points");
+  EXPECT_EQ(counted(1, "point averages", "points average"), "1 point averages");
+  EXPECT_EQ(counted(2, "point averages", "points average"), "2 points average");
+}
+
+TEST(Text, NoBreakSpacesAreBlanks) {
+  EXPECT_EQ(trimmed("\u00A0\t a\u00A0b \u202F\u2007\r"), "a\u00A0b");
+  EXPECT_EQ(trimmed(" \u00A0 "), "");
+  EXPECT_EQ(with_plain_blanks("a\u00A0b\u202Fc"), "a b c");
+}
+
 TEST(Text, ListsFewWordsWhole) {
   EXPECT_EQ(listed({}), "");
   EXPECT_EQ(listed({"V"}), "V");

@@ -159,7 +159,7 @@ TEST(Fit, TooFewPointsIsAFailureInWords) {
   design.velocities = {5.0};
   const FitResult result = fit_design(design);
   EXPECT_FALSE(result.usable);
-  EXPECT_NE(result.failure.find("1 points cannot determine 2"), std::string::npos);
+  EXPECT_NE(result.failure.find("1 point cannot determine 2 free parameters"), std::string::npos);
 }
 
 TEST(Fit, WidensTheErrorsWhereTheModelMisses) {

@@ -188,10 +188,10 @@ TEST(ImportInAir, VacuumKeepsEveryDigit) {
   request.drop_error = "1mm";
   request.rebound_error = "2mm";
   const auto result = recoil::import_points(request);
-  // As written with nine digits by the formulas for vacuum.
+  // As written with twelve digits by the formulas for vacuum.
   EXPECT_EQ(place.read("made/points.csv"),
             "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd\n"
-            "input,40,2.69386729,0.753370804,0.00372913886,0.00364036121\n");
+            "input,40,2.69386729443,0.753370803501,0.00372913886212,0.00364036120869\n");
   EXPECT_NE(note_of(result.notes, ImportRemark::without_air), nullptr);
   EXPECT_EQ(note_of(result.notes, ImportRemark::air_drag), nullptr);
   EXPECT_EQ(result.dataset.system.conditions.of(recoil::Condition::ambient_pressure), 0.0);

@@ -260,33 +260,47 @@ TEST(Forms, BothLettersMuAndOtherEncodings) {
                      4.9e-6);
   }
   place.write("input.csv", "");
-  auto request = place.request("PK\x03\x04 workbook", ImportFormat::csv);
-  EXPECT_THAT(complaint(request), HasSubstr("this is a workbook"));
-  request = place.request("\xFF\xFEV", ImportFormat::csv);
+  auto request = place.request("\xFF\xFEV", ImportFormat::csv);
   EXPECT_THAT(complaint(request), HasSubstr("UTF-16"));
 }
 
-TEST(Forms, AWorkbookIsReadByTheConverterThatIsThere) {
-  const support::Workplace place;
-  place.write("book.xlsx", "PK\x03\x04 a zip archive");
-  place.write("xlsx2csv", "#!/bin/sh\nprintf 'V,e\\n1,0.8\\n2,0.7\\n'\n");
-  const auto import = [&](const std::string& path) {
-    return support::run_command(
-        {"sh", "-c",
-         "chmod +x xlsx2csv; PATH=" + path +
-             " \"$0\" import book.xlsx --format csv --into made --replace --map "
-             "incident_velocity=V:m/s,restitution=e --particle steel --surface glass --diameter "
-             "5mm --provenance measured",
-         RECOIL_BINARY},
-        place.path());
+TEST(Forms, NoBreakSpacesAndTheMinusOfMathematics) {
+  const Place place;
+  const Dataset made =
+      read_form(place, "V\u00A0(m/s),\u202Fe\u00A0\n\u22121.5,\u00A00.8\n\u22122e\u22121,0.7\n",
+                "a", false, "incident_velocity=\"V (m/s)\",restitution=e");
+  EXPECT_DOUBLE_EQ(made.points[0].incident_velocity, 1.5);  // all come in with a minus
+  EXPECT_DOUBLE_EQ(made.points[0].restitution, 0.8);
+  EXPECT_DOUBLE_EQ(made.points[1].incident_velocity, 0.2);
+}
+
+TEST(Forms, ASuggestedMapIsOneWordOfTheShell) {
+  const Place place;
+  auto request = place.request("Velocity in m/s,e\n1,0.5\n", ImportFormat::csv);
+  request.map = {"incident_velocity=Velocity in m/s,restitution=e"};
+  const std::string told = complaint(request);
+  const std::string word = "incident_velocity=\"Velocity in m/s\":UNIT";
+  EXPECT_THAT(told, HasSubstr("write --map '" + word + "'"));
+  request.map = {word.substr(0, word.size() - 4) + "m/s", "restitution=e"};
+  EXPECT_DOUBLE_EQ(recoil::import_points(request).dataset.points[0].incident_velocity, 1.0);
+}
+
+TEST(Forms, AnEmptyColumnIsNoUnusedOne) {
+  const Place place;
+  auto request = place.request("V,e,\n1,0.5,\n2,0.6,\n", ImportFormat::csv);
+  request.map = {"incident_velocity=V:m/s,restitution=e"};
+  const auto unused = [](const recoil::ImportResult& made) {
+    std::vector<std::string> names;
+    for (const auto& note : made.notes) {
+      if (note.remark == recoil::ImportRemark::columns_not_used) names = note.names;
+    }
+    return names;
   };
-  const auto missing = import("/nowhere");
-  EXPECT_EQ(missing.status, 2);
-  EXPECT_THAT(missing.err, HasSubstr("install the package xlsx2csv"));
-  const auto made = import("$PWD:$PATH");
-  EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("the first sheet of the workbook was read by xlsx2csv"));
-  EXPECT_THAT(place.read("made/points.csv"), HasSubstr("book,5,2,0.7"));
+  EXPECT_TRUE(unused(recoil::import_points(request)).empty());
+  auto filled = place.request("V,e,\n1,0.5,\n2,0.6,wet\n", ImportFormat::csv);
+  filled.map = request.map;
+  filled.into = place.folder() / "other";
+  EXPECT_EQ(unused(recoil::import_points(filled)), std::vector<std::string>{"3 (no header)"});
 }
 
 TEST(Forms, WhatIsAmbiguousIsAsked) {

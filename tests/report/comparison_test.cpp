@@ -50,6 +50,16 @@ TEST(Comparison, ThreeFitsDependWhereAnyTwoAreApart) {
   EXPECT_THAT(choice_dependence(fits).holds, ElementsAre("C_H", "V* at 4.9 um"));
 }
 
+TEST(Comparison, FitsOfOneNameAreNumbered) {
+  const std::string text = fit_json("fit", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]");
+  const std::string other = fit_json("other", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]");
+  const auto fits =
+      told_apart({compared_fit("a", text), compared_fit("b", other), compared_fit("c", text)});
+  EXPECT_EQ(fits[0].id, "fit (1)");
+  EXPECT_EQ(fits[1].id, "other");
+  EXPECT_EQ(fits[2].id, "fit (2)");
+}
+
 TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
   const std::vector<ComparedFit> fits = {
       compared_fit("a", fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]")),

@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
-#include "core/child.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "validation/studies/child.hpp"
 #include "validation/studies/hidden_effects_plan.hpp"
 #include "validation/synthetic/case.hpp"
 

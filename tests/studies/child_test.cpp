@@ -1,5 +1,5 @@
 // Other programs: what they print, and that none is waited for without end.
-#include "core/child.hpp"
+#include "validation/studies/child.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/child.hpp"
+#include "validation/studies/child.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
