@@ -212,7 +212,8 @@ std::string note_sentence(const ImportNote& note) {
           "wrong, or air drag is large; e does not depend on the scale, V does",
           note.fall, note.gravity);
     case axis_points_down:
-      return "the heights are taken as measured downward: only so are the flights parabolas of a fall";
+      return "the heights are taken as measured downward: only so are the flights parabolas of a "
+             "fall";
     case drag_stays:
       return "the effect of air drag on the tracks was not removed";
     case shared_bounces:

@@ -117,9 +117,8 @@ std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
                  "another pair of materials, or use another instrument.";
   }
   const NextExperiment& next = several.experiments.front();
-  const std::string impacts =
-      fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
-                  diameter_words(next.diameter), next.velocity);
+  const std::string impacts = fmt::format("{} of {} at {:.3g} m/s", counted(next.events, "impact"),
+                                          diameter_words(next.diameter), next.velocity);
   const std::string difference = fmt::format(
       "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
       next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));

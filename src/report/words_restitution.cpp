@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/text.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
@@ -83,8 +84,7 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
     if (mean.velocity) continue;
     least = std::min(least, mean.value);
     most = std::max(most, mean.value);
-    const std::string count =
-        fmt::format(" ({} point{})", mean.points, mean.points == 1 ? "" : "s");
+    const std::string count = fmt::format(" ({})", counted(mean.points, "point"));
     means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
                                                  mean_words(mean), count)
                                            : mean_words(mean) + count);
