@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "data/text.hpp"
+#include "json/results.hpp"
 
 namespace recoil {
 namespace {
@@ -57,12 +58,20 @@ void write_pages(const Program& program, const std::filesystem::path& folder) {
   }
 }
 
+void write_schemas(const std::filesystem::path& folder) {
+  for (const ResultFormat& format : result_formats()) {
+    write_whole_file(folder / fmt::format("{}.schema.json", format.name),
+                     json_text(format.schema, 1), Replacing::data);
+  }
+}
+
 }  // namespace
 
 void add_help(Program& program) {
   struct Options {
     std::string topic;
     std::string folder;
+    std::string schemas;
   };
   const auto options = std::make_shared<Options>();
   const Command command = program.command("help", "print a page of the manual", R"(
@@ -74,10 +83,14 @@ The program contains the pages of docs/.
   command.option("--write-docs", options->folder, "the tables that are made from the code")
       .takes("DIR")
       .hidden();
+  command.option("--write-schemas", options->schemas, "the JSON Schemas of the results")
+      .takes("DIR")
+      .hidden();
   command.runs([options, &program] {
-    if (!options->folder.empty()) {
-      write_pages(program, options->folder);
-    } else if (options->topic.empty()) {
+    if (!options->schemas.empty()) write_schemas(options->schemas);
+    if (!options->folder.empty()) write_pages(program, options->folder);
+    if (!options->folder.empty() || !options->schemas.empty()) return;
+    if (options->topic.empty()) {
       list_topics();
     } else {
       print_topic(program, options->topic);

@@ -13,6 +13,7 @@
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "estimate/fit_spec.hpp"
+#include "json/results.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -204,6 +205,64 @@ std::string limits_table() {
   return out;
 }
 
+// ---- JSON --------------------------------------------------------------------------------------
+
+/// "meaning [unit]", and the names of an enum.
+std::string key_meaning(const Json& schema) {
+  std::string words = schema.at("description");
+  std::string names;
+  for (const Json& name : schema.value("enum", Json::array())) {
+    if (!name.is_null()) names += fmt::format(", {}", code(name.get<std::string>()));
+  }
+  return literal(names.empty() ? words : fmt::format("{}: {}", words, names.substr(2)));
+}
+
+/// Adds a row for `key` and, unless they were listed before, rows for all keys inside.
+/// @param listed the objects listed so far, and the keys at which they are
+void add_key(const Json& schema, std::string key, std::vector<std::pair<Json, std::string>>& listed,
+             std::string& rows) {
+  const Json* inner = &schema;
+  while (true) {
+    const bool by_name = inner->contains("additionalProperties") && !inner->contains("properties");
+    const bool list = inner->contains("items") && inner->at("items").contains("properties");
+    if (!by_name && !list) break;
+    key += by_name ? ".NAME" : "[]";
+    inner = &inner->at(by_name ? "additionalProperties" : "items");
+  }
+  const Json members = inner->value("properties", Json::object());
+  const auto before = std::find_if(listed.begin(), listed.end(),
+                                   [&](const auto& one) { return one.first == members; });
+  const bool known = !members.empty() && before != listed.end();
+  rows += fmt::format("| {} | {}{} |\n", code(key), key_meaning(schema),
+                      known ? fmt::format("; keys as in {}", code(before->second)) : "");
+  if (known) return;
+  listed.emplace_back(members, key);
+  for (const auto& member : members.items()) {
+    if (member.key().ends_with("_why")) continue;
+    add_key(member.value(), fmt::format("{}.{}", key, member.key()), listed, rows);
+  }
+}
+
+/// The keys below `keys` ("goodness, noise"; empty: all) in the JSON of `result`; empty if one of
+/// them does not exist.
+std::string json_table(std::string_view result, std::string_view keys) {
+  std::vector<std::pair<Json, std::string>> listed;
+  std::string rows;
+  for (const ResultFormat& format : result_formats()) {
+    if (format.name != result) continue;
+    const Json& members = format.schema.at("properties");
+    std::vector<std::string> chosen = json_detail::split_names(keys);
+    if (keys.empty()) {
+      for (const auto& member : members.items()) chosen.push_back(member.key());
+    }
+    for (const std::string& key : chosen) {
+      if (!members.contains(key)) return {};
+      add_key(members.at(key), key, listed, rows);
+    }
+  }
+  return rows.empty() ? rows : "| key | meaning |\n|---|---|\n" + rows;
+}
+
 /// A table of the manual.
 struct ManualTable {
   const char* name;
@@ -252,6 +311,20 @@ const std::vector<ManualTable>& tables() {
   return all;
 }
 
+/// The table `name`; "JSON fit: goodness, noise" lists keys of a result. Empty if there is none.
+std::string table_text(std::string_view name, const Program& program) {
+  constexpr std::string_view json = "JSON ";
+  if (name.starts_with(json)) {
+    const std::size_t end = std::min(name.find(": "), name.size());
+    return json_table(name.substr(json.size(), end - json.size()),
+                      name.substr(std::min(end + 2, name.size())));
+  }
+  for (const ManualTable& table : tables()) {
+    if (table.name == name) return table.text(program);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string_view ManualPage::title() const {
@@ -281,13 +354,12 @@ std::string with_manual_tables(const std::string& page, const std::string& file,
                        "write <!-- end --> after it");
     }
     const std::string name = page.substr(name_at, name_end - name_at);
-    const auto made = std::find_if(tables().begin(), tables().end(),
-                                   [&](const ManualTable& table) { return table.name == name; });
-    if (made == tables().end()) {
+    const std::string text = table_text(name, program);
+    if (text.empty()) {
       throw InputError({file}, fmt::format("unknown table {}", quote(name)),
                        "nothing in the code makes it", did_you_mean(name, manual_table_names()));
     }
-    out += page.substr(at, name_end + begin_end.size() - at) + made->text(program);
+    out += page.substr(at, name_end + begin_end.size() - at) + text;
     at = last;
   }
   return out + page.substr(at);

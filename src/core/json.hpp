@@ -56,6 +56,9 @@ struct OrAbsent : std::optional<Value> {
   using std::optional<Value>::optional;
 };
 
+/// The member `format_version` of a result.
+struct FormatVersion {};
+
 /// A value, or the reason why there is none.
 template <class Value>
 struct OrReason {
@@ -226,6 +229,8 @@ Json as_json(const Value& value, NonFinite non_finite) {
   if constexpr (std::is_same_v<Value, Json> || std::is_integral_v<Value> ||
                 std::is_convertible_v<const Value&, std::string_view>) {
     return value;
+  } else if constexpr (std::is_same_v<Value, FormatVersion>) {
+    return format_version;
   } else if constexpr (std::is_floating_point_v<Value>) {
     return json_detail::number_to_json(value, non_finite);
   } else if constexpr (NamedEnum<Value>) {
@@ -263,6 +268,8 @@ void read_json(const Json& json, Value& value) {
   };
   if constexpr (std::is_same_v<Value, Json>) {
     value = json;
+  } else if constexpr (std::is_same_v<Value, FormatVersion>) {
+    expect(json == format_version, "the format_version that this program reads");
   } else if constexpr (std::is_same_v<Value, bool>) {
     expect(json.is_boolean(), "true or false");
     value = json.get<bool>();

@@ -174,6 +174,7 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     ++free;
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
+    if (!truth.capture[k].captures()) continue;
     CoverageRow row;
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
@@ -237,8 +238,8 @@ std::vector<OwnCoverage> own_design_coverage(const FitSpec& spec, const FitResul
   own.uncertainty.level = options.level;
   own.uncertainty.seed = options.seed;
   own.uncertainty.threads = options.threads;
-  const CoverageResult counted =
-      measure_coverage(spec, coverage_truth(fitted, data, options.seed), own);
+  const CoverageTruth truth = coverage_truth(fitted, data, options.seed);
+  const CoverageResult counted = measure_coverage(spec, truth, own);
   std::vector<OwnCoverage> rows;
   auto next = counted.rows.begin();
   const auto take = [&](bool quoted, std::string_view method) {
@@ -255,8 +256,10 @@ std::vector<OwnCoverage> own_design_coverage(const FitSpec& spec, const FitResul
     take(recommended_interval(sets[j]).available(),
          name_of(profile ? IntervalKind::profile : IntervalKind::wald));
   }
-  for (const CaptureEstimate& capture : captures) {
-    take(capture.found && capture.interval.available(), name_of(CaptureIntervalKind::delta));
+  for (std::size_t k = 0; k < captures.size(); ++k) {
+    if (!truth.capture[k].captures()) continue;
+    take(captures[k].found && captures[k].interval.available(),
+         name_of(CaptureIntervalKind::delta));
   }
   return rows;
 }

@@ -52,7 +52,7 @@ struct CoverageResult {
   int failed = 0;         ///< number of data sets whose fit failed
   int refits_failed = 0;  ///< number of failed bootstrap refits over all data sets
   TruthOrigin truth_origin = TruthOrigin::estimate;
-  std::vector<CoverageRow> rows;
+  std::vector<CoverageRow> rows;  ///< free parameters, then capture velocities
   RECOIL_FIELDS(datasets, failed, refits_failed, truth_origin, rows)
 };
 
@@ -66,7 +66,10 @@ struct CoverageOptions {
 struct CoverageTruth {
   struct Capture {
     double diameter = 0.0;  ///< [m]
-    double velocity = 0.0;  ///< V* [m/s]
+    double velocity = 0.0;  ///< V* [m/s]; 0 without adhesion
+
+    /// Without adhesion there is no capture velocity to estimate.
+    bool captures() const { return velocity > 0.0; }
   };
   struct At {
     std::vector<double> theta;     ///< [slots]

@@ -2,227 +2,232 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "json/fit_file.hpp"
 
 namespace recoil {
 
+// One member per line.
+// clang-format off
+
 /// `diagnosis.json`: the result of one diagnosis. SI units unless the name of a member says
-/// otherwise. docs/diagnosis-json.md describes every key.
+/// otherwise.
 struct DiagnosisFile {
-  struct Data {
-    std::string id;
-    Provenance provenance = Provenance::measured;
-    std::size_t points = 0;
-    std::string sha256;
-    RECOIL_FIELDS(id, provenance, points, sha256)
-  };
+  struct Data { RECOIL_RESULT(
+      (std::string, id, "name of the dataset"),
+      (Provenance, provenance, "origin of the data"),
+      (std::size_t, points, "number of points"),
+      (std::string, sha256, "SHA-256 of datapackage.json and the points", "", sha256_schema)) };
 
-  struct Test {
-    StructureQuestion id{};
-    std::string asks;
-    std::optional<double> statistic;
-    double p_value = 1.0;
-    RECOIL_FIELDS(id, asks, statistic, p_value)
-  };
+  struct Test { RECOIL_RESULT(
+      (StructureQuestion, id, "the test"),
+      (std::string, asks, "the question that it examines"),
+      (OrNull<double>, statistic, "its statistic", "1"),
+      (double, p_value, "its p-value", "1")) };
 
-  struct Cell {
-    std::string dataset;
-    double diameter_um = 0.0;
-    Ends incident_velocity = {};  ///< ends of the band [m/s]
-    int points = 0;
-    std::optional<double> restitution, energy_J, standardised;
-    std::string model_is;  ///< "too low" or "too high"
-    RECOIL_FIELDS(dataset, diameter_um, incident_velocity, points, restitution, energy_J,
-                  standardised, model_is)
-  };
+  struct Cell { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (double, diameter_um, "diameter", "um"),
+      (Ends, incident_velocity, "ends of the range of velocities", "m/s"),
+      (int, points, "number of points"),
+      (OrNull<double>, restitution, "mean residual of e", "1"),
+      (OrNull<double>, energy_J, "mean residual of the energy", "J"),
+      (OrNull<double>, standardised, "mean residual of e, in standard errors", "1"),
+      (std::string, model_is, "how the model lies to the points", "",
+       R"({"enum": ["too high", "too low"]})")) };
 
-  struct Misfit {
-    double p_value = 1.0;
-    int simulated = 0, failed = 0;
-    std::vector<Test> tests;
-    std::vector<Cell> where;
-    double free_form_remaining_p = 1.0;
-    RECOIL_FIELDS(p_value, simulated, failed, tests, where, free_form_remaining_p)
-  };
+  struct Misfit { RECOIL_RESULT(
+      (double, p_value, "p-value of the structure in the residuals, from simulated data sets", "1"),
+      (int, simulated, "number of simulated data sets"),
+      (int, failed, "number of these whose fit failed"),
+      (std::vector<Test>, tests, "the single tests"),
+      (std::vector<Cell>, where, "mean residuals by size and range of velocities"),
+      (OrNull<double>, free_form_remaining_p, "p-value of the structure that a free smooth "
+       "function of velocity and size leaves", "1")) };
 
-  struct Outlying {
-    std::string dataset;
-    int row = 0;  ///< line in the dataset's file of points
-    double diameter_um = 0.0, incident_velocity = 0.0, restitution = 0.0;
-    std::optional<double> residual;
-    RECOIL_FIELDS(dataset, row, diameter_um, incident_velocity, restitution, residual)
-  };
+  struct Outlying { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (int, row, "line in the file of points"),
+      (double, diameter_um, "diameter", "um"),
+      (double, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, restitution, "e as measured", "1"),
+      (OrNull<double>, residual, "distance from the prediction of the other points, in standard "
+       "deviations", "1")) };
 
-  struct AnswerForAll {
-    Verdict verdict = Verdict::adequate;
-    std::vector<std::string> named, rivals, resembles;
-    RECOIL_FIELDS(verdict, named, rivals, resembles)
-  };
+  struct AnswerForAll { RECOIL_RESULT(
+      (Verdict, verdict, "as `verdict`"),
+      (Strings, named, "as `named`"),
+      (Strings, rivals, "as `rivals`"),
+      (Strings, resembles, "as `resembles`")) };
 
-  struct FoundParameter {
-    std::optional<double> value, sd;
-    std::string unit;
-    double null_value = 0.0;
-    std::optional<Condition> stated_by;
-    bool plausible = true;
-    RECOIL_FIELDS(value, sd, unit, null_value, stated_by, plausible)
-  };
+  struct FoundParameter { RECOIL_RESULT(
+      (OrNull<double>, value, "fitted value", "its unit"),
+      (OrNull<double>, sd, "standard error that is compared with limits; null if there is none",
+       "its unit"),
+      (std::string, unit, "unit of the parameter"),
+      (OrNull<double>, null_value, "value at which the mechanism vanishes", "its unit"),
+      (OrNull<Condition>, stated_by, "the condition that states the value"),
+      (bool, plausible, "whether this value is possible")) };
 
-  struct Candidate {
-    std::string id;
-    MechanismKind kind = MechanismKind::physics;
-    Named<FoundParameter> parameters;
-    std::optional<double> p_value, delta_aicc;
-    double remaining_p = 0.0, remaining_part = 1.0;
-    std::optional<double> held_out_gain, held_out_log_score;
-    bool plausible = true;
-    double cost_of_possible = 0.0;
-    std::optional<std::string> aside;  ///< why it is not accepted as a cause
-    RECOIL_FIELDS(id, kind, parameters, p_value, delta_aicc, remaining_p, remaining_part,
-                  held_out_gain, held_out_log_score, plausible, cost_of_possible, aside)
-  };
+  struct Candidate { RECOIL_RESULT(
+      (std::string, id, "the mechanism, or two joined by +"),
+      (MechanismKind, kind, "kind of the mechanism"),
+      (Named<FoundParameter>, parameters, "its parameters"),
+      (OrNull<double>, p_value, "p-value of its gain, compared with the best of all candidates on "
+       "data simulated with the base model", "1"),
+      (OrNull<double>, delta_aicc, "AICc minus that of the base model: negative is better", "1"),
+      (OrNull<double>, remaining_p, "p-value of the structure that it leaves", "1"),
+      (OrNull<double>, remaining_part, "share of the misfit that it leaves", "1"),
+      (OrNull<double>, held_out_gain, "relative gain in rms error on held-out points; null for a "
+       "cause that is set aside already, or fits less well than the best one by more than 4", "1"),
+      (OrNull<double>, held_out_log_score, "gain in log score on held-out points", "1"),
+      (bool, plausible, "whether its values are possible"),
+      (double, cost_of_possible, "increase of `delta_aicc` if the values are kept within their "
+       "limits; computed if one is beyond its limit by less than its error, else 0", "1"),
+      (OrNull<std::string>, aside, "why it is no explanation; null if it is one")) };
 
-  struct FoldEntry {
-    FoldKind kind = FoldKind::size;
-    std::string name;
-    std::size_t points = 0;
-    std::optional<double> rmse_base, rmse_extended, log_score;
-    bool counted = true, chosen = true;
-    RECOIL_FIELDS(kind, name, points, rmse_base, rmse_extended, log_score, counted, chosen)
-  };
+  struct FoldEntry { RECOIL_RESULT(
+      (FoldKind, kind, "what is held out"),
+      (std::string, name, "which size, target or range of velocities"),
+      (std::size_t, points, "number of held-out points"),
+      (OrNull<double>, rmse_base, "root mean square of e - e_base", "1"),
+      (OrNull<double>, rmse_extended, "root mean square of e - e_extended", "1"),
+      (OrNull<double>, log_score, "gain in log score", "1"),
+      (bool, counted, "whether it counts in the gain"),
+      (bool, chosen, "whether the other points choose the extended model; if not, both predictions "
+       "are those of the base model")) };
 
-  struct Gain {
-    std::optional<double> held_out_rmse_base, held_out_rmse_extended, relative;
-    std::optional<Ends> interval;
-    std::optional<double> log_score;
-    std::vector<FoldEntry> folds;
-    RECOIL_FIELDS(held_out_rmse_base, held_out_rmse_extended, relative, interval, log_score, folds)
-  };
+  struct Gain { RECOIL_RESULT(
+      (OrNull<double>, held_out_rmse_base, "root mean square of e - e_base", "1"),
+      (OrNull<double>, held_out_rmse_extended, "root mean square of e - e_extended", "1"),
+      (OrNull<double>, relative, "relative gain", "1"),
+      (OrNull<Ends>, interval, "its interval", "1"),
+      (OrNull<double>, log_score, "gain in log score", "1"),
+      (std::vector<FoldEntry>, folds, "the groups of held-out points")) };
 
-  struct FittedParameter {
-    std::optional<double> value;
-    std::string unit;
-    bool free = false;
-    std::optional<double> std_error;
-    OrAbsent<std::optional<Ends>> interval;
-    RECOIL_FIELDS(value, unit, free, std_error, interval)
-  };
+  struct FittedParameter { RECOIL_RESULT(
+      (OrNull<double>, value, "estimate", "its unit"),
+      (std::string, unit, "unit of the parameter"),
+      (bool, free, "whether it was fitted"),
+      (OrNull<double>, std_error, "standard error", "its unit"),
+      (OrAbsent<OrNull<Ends>>, interval, "recommended interval", "its unit")) };
 
-  struct Fit {
-    Named<FittedParameter> parameters;
-    std::optional<double> chi2;
-    int dof = 0;
-    std::optional<double> rmse;
-    RECOIL_FIELDS(parameters, chi2, dof, rmse)
-  };
+  struct Fit { RECOIL_RESULT(
+      (Named<FittedParameter>, parameters, "parameters by name"),
+      (OrNull<double>, chi2, "sum of the squared weighted residuals", "1"),
+      (int, dof, "degrees of freedom", "", R"({"minimum": null})"),
+      (OrNull<double>, rmse, "root mean square of e - e_model", "1")) };
 
-  struct Capture {
-    std::string dataset;
-    double diameter_um = 0.0;
-    std::optional<double> base, extended;  ///< [m/s]
-    RECOIL_FIELDS(dataset, diameter_um, base, extended)
-  };
+  struct Capture { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (double, diameter_um, "diameter", "um"),
+      (OrNull<double>, base, "capture velocity in the base model", "m/s"),
+      (OrNull<double>, extended, "capture velocity in the extended model", "m/s")) };
 
-  struct Experiment {
-    ExperimentKind kind = ExperimentKind::points;
-    OrAbsent<Condition> condition;  ///< only of kind `condition`, like the next two
-    OrAbsent<double> value;
-    OrAbsent<std::string> doing;
-    std::string dataset, series;
-    double diameter_um = 0.0, incident_velocity = 0.0;
-    int events = 0;
-    std::array<std::string, 2> separates;
-    std::optional<double> expected_difference, expected_log_odds;
-    RECOIL_FIELDS(kind, condition, value, doing, dataset, series, diameter_um, incident_velocity,
-                  events, separates, expected_difference, expected_log_odds)
-  };
+  using Pair = std::array<std::string, 2>;
 
-  struct Expected {
-    std::string id, dataset;
-    Condition condition = Condition::ambient_pressure;
-    double value = 0.0, diameter_um = 0.0, incident_velocity = 0.0;
-    std::optional<double> change;
-    RECOIL_FIELDS(id, dataset, condition, value, diameter_um, incident_velocity, change)
-  };
+  struct Experiment { RECOIL_RESULT(
+      (ExperimentKind, kind, "more impacts, or impacts after a change"),
+      (OrAbsent<Condition>, condition, "for a change: what to change"),
+      (OrAbsent<double>, value, "for a change: its new value", "SI"),
+      (OrAbsent<std::string>, doing, "for a change: how to do it in a laboratory"),
+      (std::string, dataset, "dataset"),
+      (std::string, series, "series with the most similar impacts"),
+      (double, diameter_um, "diameter", "um"),
+      (double, incident_velocity, "incident velocity", "m/s"),
+      (int, events, "number of impacts that gives expected odds of 99 to 1 between the two causes, "
+       "as far as their parameters and laws are known"),
+      (Pair, separates, "the two causes"),
+      (OrNull<double>, expected_difference, "expected difference of their e", "1"),
+      (OrNull<double>, expected_log_odds, "expected ln of the odds", "1")) };
 
-  struct Unstated {
-    UnstatedSource id = UnstatedSource::velocity_errors;
-    double value = 0.0, delta_aicc = 0.0, remaining_p = 0.0;
-    bool leave_nothing = false;
-    bool rival = false;  ///< explains the data instead of the answer, or as well
-    RECOIL_FIELDS(id, value, delta_aicc, remaining_p, leave_nothing, rival)
-  };
+  struct Expected { RECOIL_RESULT(
+      (std::string, id, "the mechanism"),
+      (std::string, dataset, "dataset"),
+      (Condition, condition, "the condition that fixes it"),
+      (OrNull<double>, value, "stated value of the condition", "SI"),
+      (double, diameter_um, "diameter of the point with the largest effect", "um"),
+      (double, incident_velocity, "incident velocity of this point", "m/s"),
+      (OrNull<double>, change, "change of e at this point", "1")) };
 
-  struct Settings {
-    double level = 0.0, chance = 0.0, apart = 0.0, apart_in_pairs = 0.0;
-    int compared = 0;
-    std::uint64_t seed = 0;
-    RECOIL_FIELDS(level, chance, apart, apart_in_pairs, compared, seed)
-  };
+  struct Unstated { RECOIL_RESULT(
+      (UnstatedSource, id, "the error"),
+      (OrNull<double>, value, "its size: `velocity_errors` relative, `larger_deviations` a factor, "
+       "`shared_setting` of e, `height_readings` in m, `time_readings` in s", "SI"),
+      (OrNull<double>, delta_aicc, "AICc minus that of the base model", "1"),
+      (OrNull<double>, remaining_p, "p-value of the structure that it leaves", "1"),
+      (bool, leave_nothing, "whether it leaves no structure"),
+      (bool, rival, "whether it explains the data instead of the answer, or as well")) };
 
-  struct Exact {
-    double p_value = 1.0;
-    std::vector<std::string> listed;
-    RECOIL_FIELDS(p_value, listed)
-  };
+  struct Settings { RECOIL_RESULT(
+      (double, level, "level of the test for structure", "1"),
+      (double, chance, "level of a candidate's p-value", "1"),
+      (double, apart, "least difference of AICc from the next cause", "1"),
+      (double, apart_in_pairs, "the same for two causes at once", "1"),
+      (int, compared, "number of simulated data sets that calibrate a candidate's p-value"),
+      (std::uint64_t, seed, "seed")) };
 
-  struct DetectionEntry {
-    std::string id;
-    double strength = 1.0;
-    int datasets = 0, named = 0, listed = 0, wrong = 0;
-    RECOIL_FIELDS(id, strength, datasets, named, listed, wrong)
-  };
+  struct Exact { RECOIL_RESULT(
+      (double, p_value, "p-value of the structure that the model would leave", "1"),
+      (Strings, listed, "causes that would fit best, if `p_value` is at most `settings.level`")) };
 
-  struct FalseAlarms {
-    int datasets = 0;
-    double share = 0.0;
-    RECOIL_FIELDS(datasets, share)
-  };
+  struct DetectionEntry { RECOIL_RESULT(
+      (std::string, id, "the cause"),
+      (double, strength, "1: the effect as found; 0.5: half of it", "1"),
+      (int, datasets, "number of simulated data sets", "", at_least_one),
+      (int, named, "number of these in which it alone is named"),
+      (int, listed, "number of these in which it is listed among others"),
+      (int, wrong, "number of these in which another cause is named")) };
 
-  struct OwnDesignEntry {
-    std::vector<DetectionEntry> detection;
-    FalseAlarms false_alarms;
-    RECOIL_FIELDS(detection, false_alarms)
-  };
+  struct FalseAlarms { RECOIL_RESULT(
+      (int, datasets, "number of data sets that the base model simulated", "", at_least_one),
+      (double, share, "share of these in which a cause is named", "1")) };
 
-  int format_version = recoil::format_version;
-  std::string fit;
-  std::vector<Data> datasets;
-  std::vector<RestitutionMeanEntry> restitution_summary;
-  VelocityDependenceEntry velocity_dependence;
-  SeriesDifferEntry series_differ;
-  Verdict verdict = Verdict::adequate;
-  std::string headline, text;
-  Misfit misfit;
-  std::vector<Outlying> outlying_points;
-  std::optional<AnswerForAll> with_outlying_points;
-  double law_error = 0.0;
-  std::optional<Exact> if_exact;
-  std::vector<std::string> named, rivals, resembles, in_every_explanation;
-  std::optional<std::string> shared_cause;
-  std::vector<Candidate> candidates, pairs;
-  std::optional<Gain> gain;
-  Fit base;
-  std::optional<Fit> extended;
-  std::vector<Capture> capture_velocity;
-  std::vector<Experiment> next_experiment;
-  std::vector<Expected> expected_effects;
-  std::vector<Unstated> unstated_errors;
-  OrAbsent<OwnDesignEntry> own_design;
-  Settings settings;
-  std::vector<std::string> warnings, remarks;
-  RECOIL_FIELDS(format_version, fit, datasets, restitution_summary, velocity_dependence,
-                series_differ, verdict, headline, text, misfit, outlying_points,
-                with_outlying_points, law_error, if_exact, named, rivals, resembles,
-                in_every_explanation, shared_cause, candidates, pairs, gain, base, extended,
-                capture_velocity, next_experiment, expected_effects, unstated_errors, own_design,
-                settings, warnings, remarks)
-};
+  struct OwnDesignEntry { RECOIL_RESULT(
+      (std::vector<DetectionEntry>, detection, "every cause that is named or listed"),
+      (FalseAlarms, false_alarms, "false alarms")) };
+
+  RECOIL_RESULT(
+    (FormatVersion, format_version, about_format_version),
+    (std::string, fit, "name of the fit file without ending"),
+    (std::vector<Data>, datasets, "each dataset"),
+    (std::vector<RestitutionMeanEntry>, restitution_summary, about_restitution_summary),
+    (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
+    (SeriesDifferEntry, series_differ, about_series_differ),
+    (Verdict, verdict, "the answer"),
+    (std::string, headline, "the answer in one line"),
+    (std::string, text, "the answer in one paragraph"),
+    (Misfit, misfit, "what the base model leaves"),
+    (std::vector<Outlying>, outlying_points, "points that were set aside"),
+    (OrNull<AnswerForAll>, with_outlying_points, "the answer with these points; null if there are "
+     "none"),
+    (double, law_error, "allowed relative error of the laws", "1"),
+    (OrNull<Exact>, if_exact, "for an adequate model: what would be said if laws and losses had no "
+     "error; null if `law_error` is 0"),
+    (Strings, named, "ids of the named mechanisms; two if both act at once"),
+    (Strings, rivals, "ids that the data cannot distinguish from the named one; for an adequate "
+     "model `materials_within_errors`, if exact materials would leave structure"),
+    (Strings, resembles, "ids of the mechanisms that fit best but are impossible, or cannot be "
+     "distinguished from an unknown law of size; then no cause is named"),
+    (Strings, in_every_explanation, "if two causes act at once: those in every explanation"),
+    (OrNull<std::string>, shared_cause, "the common cause, if all listed ones are laws of it"),
+    (std::vector<Candidate>, candidates, "every single cause"),
+    (std::vector<Candidate>, pairs, "the 20 best combinations of two causes"),
+    (OrNull<Gain>, gain, "gain of the extended model on held-out points"),
+    (Fit, base, "fit of the base model"),
+    (OrNull<Fit>, extended, "fit of the extended model"),
+    (std::vector<Capture>, capture_velocity, "capture velocities in both models"),
+    (std::vector<Experiment>, next_experiment, "recommended experiments, the least effort first"),
+    (std::vector<Expected>, expected_effects, "effects that the stated conditions fix completely"),
+    (std::vector<Unstated>, unstated_errors, "errors that may explain the misfit without a cause"),
+    (OrAbsent<OwnDesignEntry>, own_design, "with `--rates`: what these points could have shown"),
+    (Settings, settings, "limits of the diagnosis"),
+    (Strings, warnings, "warnings"),
+    (Strings, remarks, "remarks; for a reconstruction, the effects that its recipe put there")) };
+
+// clang-format on
 
 }  // namespace recoil

@@ -57,13 +57,13 @@ FitFile read_fit_file(const std::string& file, const std::string& text, const st
 }
 
 std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter) {
-  const std::string kind = parameter.recommended.interval.value_or("");
   const FitFile::Intervals& all = parameter.intervals;
-  if (kind == "wald") return all.wald;
-  if (kind == "profile") return all.profile;
-  if (kind == "percentile") return all.percentile;
-  if (kind == "bca") return all.bca;
-  if (kind == "studentized") return all.studentized;
+  const OrNull<IntervalKind> kind = parameter.recommended.interval;
+  if (kind == IntervalKind::wald) return all.wald;
+  if (kind == IntervalKind::profile) return all.profile;
+  if (kind == IntervalKind::percentile) return all.percentile;
+  if (kind == IntervalKind::bca) return all.bca;
+  if (kind == IntervalKind::studentized) return all.studentized;
   return std::nullopt;
 }
 

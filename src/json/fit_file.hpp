@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
+#include "core/json_schema.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/least_squares.hpp"
@@ -14,6 +14,7 @@
 #include "estimate/two_point.hpp"
 #include "impact/impact.hpp"
 #include "predict/validity.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval.hpp"
 #include "uncertainty/two_point_comparison.hpp"
@@ -23,470 +24,508 @@ namespace recoil {
 /// Lower and upper end.
 using Ends = std::array<double, 2>;
 
+using Strings = std::vector<std::string>;
+
+/// Parts of schemas.
+inline constexpr std::string_view sha256_schema = R"({"pattern": "^[0-9a-f]{64}$"})";
+inline constexpr std::string_view at_least_one = R"({"minimum": 1})";
+inline constexpr std::string_view rebound_or_captured = R"({"enum": ["rebound", "captured"]})";
+inline constexpr std::string_view number_or_auto =
+    R"({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "auto"}]})";
+
+/// The descriptions of members that several results have.
+inline constexpr std::string_view about_format_version =
+    "version of the format; it increases when a key is removed or changes its meaning, not when "
+    "one is added";
+inline constexpr std::string_view about_recoil_version = "version of the program";
+inline constexpr std::string_view about_restitution_summary =
+    "mean e of every series and diameter; then, if settings have several points, of every setting";
+inline constexpr std::string_view about_velocity_dependence =
+    "change of e per decade of V, the same in all series, by weighted least squares; null if only "
+    "one velocity or no error is known";
+inline constexpr std::string_view about_series_differ =
+    "test whether the series differ at equal V (analysis of covariance)";
+
+// One member per line.
+// clang-format off
+
 /// A dataset of a result.
-struct DatasetEntry {
-  std::string id, title;
-  Provenance provenance = Provenance::measured;
-  std::string provenance_sentence;
-  std::size_t points = 0;
-  std::string sha256;
-  std::vector<std::string> sources;
-  RECOIL_FIELDS(id, title, provenance, provenance_sentence, points, sha256, sources)
-};
+struct DatasetEntry { RECOIL_RESULT(
+    (std::string, id, "name of the dataset"),
+    (std::string, title, "its title"),
+    (Provenance, provenance, "origin of the data"),
+    (std::string, provenance_sentence, "the meaning of the provenance"),
+    (std::size_t, points, "number of points"),
+    (std::string, sha256, "SHA-256 of datapackage.json and the points", "", sha256_schema),
+    (Strings, sources, "where the data come from")) };
+
+/// The dataset of a simulated impact or of a mixture.
+struct DatasetReference { RECOIL_RESULT(
+    (std::string, id, "name of the dataset"),
+    (Provenance, provenance, "origin of the data"),
+    (std::string, provenance_sentence, "the meaning of the provenance"),
+    (std::string, sha256, "SHA-256 of datapackage.json and the points", "", sha256_schema)) };
 
 /// One check of the validity of the model.
-struct ValidityEntry {
-  ValidityQuantity quantity = ValidityQuantity::contact_radius;
-  std::optional<double> value;
-  double limit = 0.0;
-  std::string limit_is;   ///< "least" or "largest" good value
-  bool exceeded = false;  ///< true: the limit is exceeded, and the model is not valid
-  OrAbsent<std::string> dataset;
-  OrAbsent<double> diameter_um, incident_velocity;  ///< [um], [m/s]
-  std::string text;
-  RECOIL_FIELDS(quantity, value, limit, limit_is, exceeded, dataset, diameter_um, incident_velocity,
-                text)
-};
+struct ValidityEntry { RECOIL_RESULT(
+    (ValidityQuantity, quantity, "what is compared with its limit"),
+    (OrNull<double>, value, "value at the worst point", "1"),
+    (double, limit, "the largest or the least value at which the model holds", "1"),
+    (std::string, limit_is, "whether the limit is the largest or the least valid value", "",
+     R"({"enum": ["largest", "least"]})"),
+    (bool, exceeded, "true: the value is beyond the limit, and the model does not hold there"),
+    (OrAbsent<std::string>, dataset, "dataset of that point"),
+    (OrAbsent<double>, diameter_um, "diameter of that point", "um"),
+    (OrAbsent<double>, incident_velocity, "incident velocity of that point", "m/s"),
+    (std::string, text, "the check in words")) };
 
 /// A mean of e over a series of one diameter, or over one setting of it.
-struct RestitutionMeanEntry {
-  std::string dataset, series;
-  std::optional<std::string> setting;
-  double diameter_um = 0.0;
-  std::optional<double> incident_velocity;  ///< mean V of a setting [m/s]
-  double value = 0.0;
-  OrReason<Ends> interval;
-  int points = 0;
-  RECOIL_FIELDS(dataset, series, setting, diameter_um, incident_velocity, value, interval, points)
-};
+struct RestitutionMeanEntry { RECOIL_RESULT(
+    (std::string, dataset, "dataset"),
+    (std::string, series, "series"),
+    (OrNull<std::string>, setting, "setting; null for the whole series"),
+    (double, diameter_um, "diameter", "um"),
+    (OrNull<double>, incident_velocity, "mean V of a setting; null for the whole series", "m/s"),
+    (double, value, "mean e", "1"),
+    (OrReason<Ends>, interval, "95 % interval, from the scatter or from the stated errors, "
+     "whichever is wider", "1"),
+    (int, points, "number of points", "", at_least_one)) };
 
-/// The slope b of e = a_series + b log10 V [1/decade].
-struct VelocityDependenceEntry {
-  OrReason<double> slope;
-  std::optional<Ends> interval;
-  std::optional<double> p_value;
-  RECOIL_FIELDS(slope, interval, p_value)
-};
+/// The slope b of e = a_series + b log10 V.
+struct VelocityDependenceEntry { RECOIL_RESULT(
+    (OrReason<double>, slope, "slope", "1/decade"),
+    (OrNull<Ends>, interval, "95 % interval of the slope", "1/decade"),
+    (OrNull<double>, p_value, "p-value of no slope", "1")) };
 
 /// The test for differences between series, and the largest difference.
 struct SeriesDifferEntry {
-  OrReason<double> p_value;
-  std::optional<std::array<std::string, 2>> most_different;
-  std::optional<double> difference;
-  std::optional<Ends> interval;
-  RECOIL_FIELDS(p_value, most_different, difference, interval)
-};
+  using Pair = std::array<std::string, 2>;
+  RECOIL_RESULT(
+    (OrReason<double>, p_value, "p-value of no difference", "1"),
+    (OrNull<Pair>, most_different, "the two series that differ most"),
+    (OrNull<double>, difference, "difference of their e", "1"),
+    (OrNull<Ends>, interval, "95 % interval of this difference", "1")) };
 
 /// A law of loss of the dry contact, compared with the others.
-struct LossLawEntry {
-  std::string id;
-  double delta_aicc = 0.0;
-  RECOIL_FIELDS(id, delta_aicc)
-};
+struct LossLawEntry { RECOIL_RESULT(
+    (std::string, id, "the law"),
+    (OrNull<double>, delta_aicc, "its AICc minus that of the best law", "1")) };
+
+/// The interval to quote.
+template <class Kind>
+struct RecommendedEntry { RECOIL_RESULT(
+    (OrNull<Kind>, interval, "the interval to quote"),
+    (std::string, why, "the rule that selects it, or why there is none")) };
 
 /// `fit.json`: the result of one fit. SI units unless the name of a member says otherwise.
-/// docs/fit-json.md describes every key.
 struct FitFile {
-  struct Source {
-    std::string id, sha256;
-    RECOIL_FIELDS(id, sha256)
-  };
+  struct Source { RECOIL_RESULT(
+      (std::string, id, "name of the fit file without ending"),
+      (std::string, sha256, "SHA-256 of the fit file", "", sha256_schema)) };
 
   struct ParameterOptions {
-    std::optional<double> initial;
-    bool free = false;
-    Ends bounds = {};
-    RECOIL_FIELDS(initial, free, bounds)
-  };
+    using Bounds = std::array<OrNull<double>, 2>;
+    RECOIL_RESULT(
+      (OrNull<double>, initial, "value at which the fit starts", "its unit"),
+      (bool, free, "whether it is fitted"),
+      (Bounds, bounds, "lower and upper bound; null: none", "its unit")) };
 
   /// The options in use, from the fit file, the command line and the defaults.
-  struct Options {
-    AdhesionLaw adhesion = AdhesionLaw::ring;
-    AdhesionDampingPhase adhesion_damping_phase = AdhesionDampingPhase::rebound;
-    std::string loss;  ///< loss of the dry contact in use
-    std::vector<std::string> mechanisms;
-    bool mixed_sizes = false;  ///< true: points average over stated sizes
-    Json replicates;           ///< a number, or "auto"
-    Scheme scheme = Scheme::automatic;
-    double level = 0.0;
-    std::uint64_t seed = 0;
-    bool materials = false, materials_adjusted = false;
-    Named<ParameterOptions> parameters;
-    RECOIL_FIELDS(adhesion, adhesion_damping_phase, loss, mechanisms, mixed_sizes, replicates,
-                  scheme, level, seed, materials, materials_adjusted, parameters)
-  };
+  struct Options { RECOIL_RESULT(
+      (AdhesionLaw, adhesion, "law of adhesion"),
+      (AdhesionDampingPhase, adhesion_damping_phase, "phase in which the adhesion damping acts"),
+      (std::string, loss, "loss of the dry contact"),
+      (Strings, mechanisms, "ids of the mechanisms"),
+      (bool, mixed_sizes, "whether points average over sizes that a dataset states"),
+      (Json, replicates, "bootstrap replicates", "", number_or_auto),
+      (Scheme, scheme, "requested bootstrap scheme"),
+      (double, level, "level of the intervals", "1"),
+      (std::uint64_t, seed, "seed of all random numbers"),
+      (bool, materials, "whether the errors of the constants widen the intervals"),
+      (bool, materials_adjusted, "whether the points move the constants (`adjust`)"),
+      (Named<ParameterOptions>, parameters, "options of every parameter")) };
 
   /// The contact properties that follow from the materials of one dataset.
-  struct Contact {
-    std::string dataset;
-    std::optional<double> stiffness_K_Pa, stiffness_K_derived_Pa, adhesion_energy_J_per_m2,
-        f0_N_per_m, W_of_f0_J_per_m2, f0_eq12_N_per_m, reference_diameter_um,
-        particle_density_kg_per_m3, adhesion_velocity_m_per_s;
-    std::vector<std::string> contradictions;
-    RECOIL_FIELDS(dataset, stiffness_K_Pa, stiffness_K_derived_Pa, adhesion_energy_J_per_m2,
-                  f0_N_per_m, W_of_f0_J_per_m2, f0_eq12_N_per_m, reference_diameter_um,
-                  particle_density_kg_per_m3, adhesion_velocity_m_per_s, contradictions)
-  };
+  struct Contact { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (OrNull<double>, stiffness_K_Pa, "stiffness K in use", "Pa"),
+      (OrNull<double>, stiffness_K_derived_Pa, "K of the elastic constants", "Pa"),
+      (OrNull<double>, adhesion_energy_J_per_m2, "work of adhesion in use", "J/m2"),
+      (OrNull<double>, f0_N_per_m, "f0 at the reference diameter", "N/m"),
+      (OrNull<double>, W_of_f0_J_per_m2, "work of adhesion that belongs to f0 (eqs 9, 10)", "J/m2"),
+      (OrNull<double>, f0_eq12_N_per_m, "f0 of the work of adhesion (eq. 12)", "N/m"),
+      (OrNull<double>, reference_diameter_um, "diameter to which f0 belongs", "um"),
+      (OrNull<double>, particle_density_kg_per_m3, "density of the particle", "kg/m3"),
+      (OrNull<double>, adhesion_velocity_m_per_s, "velocity scale of the adhesion", "m/s"),
+      (Strings, contradictions, "inputs that contradict each other, and which was used")) };
 
-  struct Model {
-    std::string equation;
-    AdhesionLaw adhesion = AdhesionLaw::ring;
-    AdhesionDampingPhase adhesion_damping_phase = AdhesionDampingPhase::rebound;
-    std::vector<Contact> contacts;
-    OrAbsent<double> separation_m;  ///< z0 of Maugis' law
-    RECOIL_FIELDS(equation, adhesion, adhesion_damping_phase, contacts, separation_m)
-  };
+  struct Model { RECOIL_RESULT(
+      (std::string, equation, "equation of motion"),
+      (AdhesionLaw, adhesion, "law of adhesion"),
+      (AdhesionDampingPhase, adhesion_damping_phase, "phase in which the adhesion damping acts"),
+      (std::vector<Contact>, contacts, "values that follow from the materials of each dataset"),
+      (OrAbsent<double>, separation_m, "z0 of Maugis' law", "m")) };
 
-  /// The interval to quote, and the reason.
-  struct Recommended {
-    std::optional<std::string> interval;  ///< key of the interval
-    std::string why;
-    RECOIL_FIELDS(interval, why)
-  };
+  using Recommended = RecommendedEntry<IntervalKind>;
 
-  struct Intervals {
-    std::optional<Ends> wald, profile, percentile, bca, studentized;
-    Named<std::string> why;  ///< reasons for the intervals that are null
-    Recommended recommended;
-    std::optional<Ends> posterior;
-    RECOIL_FIELDS(wald, profile, percentile, bca, studentized, why, recommended, posterior)
-  };
+  struct Intervals { RECOIL_RESULT(
+      (OrNull<Ends>, wald, "Wald interval", "its unit"),
+      (OrNull<Ends>, profile, "profile-likelihood interval", "its unit"),
+      (OrNull<Ends>, percentile, "bootstrap percentile interval", "its unit"),
+      (OrNull<Ends>, bca, "BCa bootstrap interval", "its unit"),
+      (OrNull<Ends>, studentized, "studentized bootstrap interval", "its unit"),
+      (Named<std::string>, why, "reasons for the intervals that are null, by kind"),
+      (Recommended, recommended, "as `recommended` of the parameter"),
+      (OrNull<Ends>, posterior, "posterior interval", "its unit")) };
 
-  struct BcaConstants {
-    double bias = 0.0, acceleration = 0.0;
-    RECOIL_FIELDS(bias, acceleration)
-  };
+  struct IntervalErrors { RECOIL_RESULT(
+      (OrNull<Ends>, wald, "of the Wald interval", "its unit"),
+      (OrNull<Ends>, profile, "of the profile-likelihood interval", "its unit"),
+      (OrNull<Ends>, percentile, "of the percentile interval", "its unit"),
+      (OrNull<Ends>, bca, "of the BCa interval", "its unit"),
+      (OrNull<Ends>, studentized, "of the studentized interval", "its unit")) };
+
+  struct BcaConstants { RECOIL_RESULT(
+      (OrNull<double>, bias, "bias correction z0", "1"),
+      (OrNull<double>, acceleration, "acceleration a", "1")) };
 
   /// One source of a standard error.
-  struct BudgetRow {
-    std::string source;
-    std::optional<double> sd, share;
-    OrAbsent<Ends> move;
-    RECOIL_FIELDS(source, sd, share, move)
-  };
+  struct BudgetRow { RECOIL_RESULT(
+      (std::string, source, "scatter, velocity, diameter, spread, numerics, or a constant"),
+      (OrNull<double>, sd, "standard error from this source alone", "its unit"),
+      (OrNull<double>, share, "share of the variance", "1"),
+      (OrAbsent<Ends>, move, "change if this constant is one sd lower and one sd higher",
+       "its unit")) };
 
-  struct MaterialsExact {
-    std::optional<double> value, std_error;
-    Named<std::optional<Ends>> intervals;
-    RECOIL_FIELDS(value, std_error, intervals)
-  };
+  struct ExactIntervals { RECOIL_RESULT(
+      (OrNull<Ends>, wald, "Wald interval", "its unit"),
+      (OrNull<Ends>, profile, "profile-likelihood interval", "its unit")) };
 
-  struct Parameter {
-    OrReason<double> value;
-    std::string unit;
-    bool free = false, at_bound = false;
-    OrReason<double> std_error;
-    Intervals intervals;
-    Recommended recommended;
-    std::optional<ProfileShape> profile_shape;
-    Named<std::optional<Ends>> intervals_mc_error;
-    Named<std::string> intervals_note;
-    std::optional<std::string> intervals_differ;
-    std::optional<BcaConstants> bca_constants;
-    std::optional<double> bound_share;
-    OrAbsent<std::vector<BudgetRow>> budget;
-    OrAbsent<bool> budget_linear;
-    OrAbsent<std::optional<double>> budget_sd_without_first_constant;
-    OrAbsent<MaterialsExact> materials_exact;
-    RECOIL_FIELDS(value, unit, free, at_bound, std_error, intervals, recommended, profile_shape,
-                  intervals_mc_error, intervals_note, intervals_differ, bca_constants, bound_share,
-                  budget, budget_linear, budget_sd_without_first_constant, materials_exact)
-  };
+  struct MaterialsExact { RECOIL_RESULT(
+      (OrNull<double>, value, "estimate", "its unit"),
+      (OrNull<double>, std_error, "standard error", "its unit"),
+      (ExactIntervals, intervals, "intervals")) };
+
+  struct Parameter { RECOIL_RESULT(
+      (OrReason<double>, value, "estimate, or the fixed value", "its unit"),
+      (std::string, unit, "unit of the parameter"),
+      (bool, free, "whether it was fitted"),
+      (bool, at_bound, "whether the estimate rests on a bound"),
+      (OrReason<double>, std_error, "standard error", "its unit"),
+      (Intervals, intervals, "intervals by kind, [lower, upper]"),
+      (Recommended, recommended, "which interval to quote"),
+      (OrNull<ProfileShape>, profile_shape, "shape of the profile likelihood"),
+      (IntervalErrors, intervals_mc_error, "Monte-Carlo error of both ends"),
+      (Named<std::string>, intervals_note, "notes by kind, such as an end at a bound"),
+      (OrNull<std::string>, intervals_differ, "why the kinds differ"),
+      (OrNull<BcaConstants>, bca_constants, "constants of the BCa interval"),
+      (OrNull<double>, bound_share, "share of the replicates that rest on a bound", "1"),
+      (OrAbsent<std::vector<BudgetRow>>, budget, "contributions to the standard error"),
+      (OrAbsent<bool>, budget_linear, "whether the moves of the budget agree with linear "
+       "propagation"),
+      (OrAbsent<OrNull<double>>, budget_sd_without_first_constant, "the error that would remain if "
+       "the constant with the largest share were exact", "its unit"),
+      (OrAbsent<MaterialsExact>, materials_exact, "the fit with exact constants")) };
 
   /// A material constant with a stated error.
-  struct Constant {
-    std::optional<double> value;
-    std::string unit, meaning;
-    std::optional<double> std_error, stated, stated_sd;
-    std::string distribution;  ///< "normal" or "lognormal"
-    std::optional<double> moved_sd;
-    std::vector<std::string> datasets;
-    RECOIL_FIELDS(value, unit, meaning, std_error, stated, stated_sd, distribution, moved_sd,
-                  datasets)
-  };
+  struct Constant { RECOIL_RESULT(
+      (OrNull<double>, value, "fitted value", "its unit"),
+      (std::string, unit, "unit of the constant"),
+      (std::string, meaning, "what it is"),
+      (OrNull<double>, std_error, "standard error of the fitted value", "its unit"),
+      (OrNull<double>, stated, "stated value", "its unit"),
+      (OrNull<double>, stated_sd, "stated standard deviation; of the logarithm if lognormal",
+       "its unit or 1"),
+      (std::string, distribution, "distribution of the stated error", "",
+       R"({"enum": ["normal", "lognormal"]})"),
+      (OrNull<double>, moved_sd, "fitted minus stated value, in standard deviations", "1"),
+      (Strings, datasets, "datasets that have this constant")) };
 
-  using Matrix = Named<Named<std::optional<double>>>;
+  using Matrix = Named<Named<OrNull<double>>>;
 
-  struct CaptureIntervals {
-    std::optional<Ends> delta, percentile, studentized;
-    OrAbsent<std::optional<Ends>> posterior;
-    RECOIL_FIELDS(delta, percentile, studentized, posterior)
-  };
+  struct CaptureIntervals { RECOIL_RESULT(
+      (OrNull<Ends>, delta, "interval by the delta method", "m/s"),
+      (OrNull<Ends>, percentile, "bootstrap percentile interval", "m/s"),
+      (OrNull<Ends>, studentized, "studentized bootstrap interval", "m/s"),
+      (OrAbsent<OrNull<Ends>>, posterior, "posterior interval", "m/s")) };
 
-  struct CaptureVelocity {
-    std::string dataset;
-    std::optional<double> diameter_um;
-    std::string unit;
-    OrReason<double> value;
-    /// Largest velocity with captures, if no point has both outcomes [m/s].
-    std::optional<double> lower_limit;
-    /// Smallest velocity without captures, if no point has both outcomes [m/s].
-    std::optional<double> upper_limit;
-    std::optional<Ends> interval, interval_mc_error;
-    CaptureIntervals intervals;
-    Recommended recommended;
-    OrAbsent<std::string> why;  ///< reason for a missing interval
-    OrAbsent<std::vector<BudgetRow>> budget;
-    OrAbsent<bool> budget_linear;
-    OrAbsent<std::optional<double>> budget_sd_without_first_constant;
-    RECOIL_FIELDS(dataset, diameter_um, unit, value, lower_limit, upper_limit, interval,
-                  interval_mc_error, intervals, recommended, why, budget, budget_linear,
-                  budget_sd_without_first_constant)
-  };
+  struct CaptureVelocity { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (OrNull<double>, diameter_um, "diameter", "um"),
+      (std::string, unit, "unit of the values", "", R"({"const": "m/s"})"),
+      (OrReason<double>, value, "capture velocity V*: slower spheres stay. Null without adhesion "
+       "and if all points record only that all or none of their impacts were captured", "m/s"),
+      (OrNull<double>, lower_limit, "the fastest capture, if no point has both outcomes", "m/s"),
+      (OrNull<double>, upper_limit, "the slowest rebound, if no point has both outcomes", "m/s"),
+      (OrNull<Ends>, interval, "the recommended interval", "m/s"),
+      (OrNull<Ends>, interval_mc_error, "Monte-Carlo error of its ends", "m/s"),
+      (CaptureIntervals, intervals, "intervals by kind"),
+      (RecommendedEntry<CaptureIntervalKind>, recommended, "which interval to quote"),
+      (OrAbsent<std::string>, why, "why there is no interval"),
+      (OrAbsent<std::vector<BudgetRow>>, budget, "contributions to the standard error"),
+      (OrAbsent<bool>, budget_linear, "whether the moves of the budget agree with linear "
+       "propagation"),
+      (OrAbsent<OrNull<double>>, budget_sd_without_first_constant, "the error that would remain if "
+       "the constant with the largest share were exact", "m/s")) };
 
-  struct Derived {
-    std::vector<CaptureVelocity> capture_velocity;
-    RECOIL_FIELDS(capture_velocity)
-  };
+  struct Derived { RECOIL_RESULT(
+      (std::vector<CaptureVelocity>, capture_velocity, "by dataset and diameter")) };
 
-  struct SolverUse {
-    Solver name = Solver::fast;
-    long handovers = 0;
-    DescentEnd ended = DescentEnd::minimum;
-    Strategy strategy = Strategy::trust_region;
-    RECOIL_FIELDS(name, handovers, ended, strategy)
-  };
+  struct SolverUse { RECOIL_RESULT(
+      (Solver, name, "solver of the impacts"),
+      (long, handovers, "number of impacts that went to the reference solver"),
+      (DescentEnd, ended, "where the minimisation ended: at a minimum, in a valley (a combination "
+       "of parameters has no effect along it), or where chi2 is flat (the points do not depend on "
+       "a parameter, whose value then means nothing)", "",
+       R"({"enum": ["minimum", "valley", "flat"]})"),
+      (Strategy, strategy, "the minimiser that found the answer: Ceres' trust region, "
+       "Levenberg-Marquardt within bounds, or Gauss-Newton")) };
 
-  struct Goodness {
-    OrReason<double> chi2;
-    int dof = 0;
-    OrReason<double> p_value, minus_two_log_likelihood, rmse, noise_scale;
-    std::string noise_text;
-    RECOIL_FIELDS(chi2, dof, p_value, minus_two_log_likelihood, rmse, noise_scale, noise_text)
-  };
+  struct Goodness { RECOIL_RESULT(
+      (OrReason<double>, chi2, "sum of the squared weighted residuals", "1"),
+      (int, dof, "degrees of freedom", "", R"({"minimum": null})"),
+      (OrReason<double>, p_value, "p-value of chi2 under the stated errors", "1"),
+      (OrReason<double>, minus_two_log_likelihood, "-2 ln of the density of e, with all constants",
+       "1"),
+      (OrReason<double>, rmse, "root mean square of e - e_model", "1"),
+      (OrReason<double>, noise_scale, "factor by which the residuals exceed the noise", "1"),
+      (std::string, noise_text, "the noise in words")) };
 
-  struct NoiseCandidate {
-    VarianceFunction variance = VarianceFunction::constant;
-    std::optional<double> scale, criterion;
-    double handicap = 0.0;
-    RECOIL_FIELDS(variance, scale, criterion, handicap)
-  };
+  struct NoiseCandidate { RECOIL_RESULT(
+      (VarianceFunction, variance, "variance function"),
+      (OrNull<double>, scale, "its scale", "1"),
+      (OrNull<double>, criterion, "its criterion: the least is chosen", "1"),
+      (double, handicap, "penalty in the criterion", "1")) };
 
-  struct Noise {
-    VarianceFunction variance = VarianceFunction::constant;
-    bool chosen = false;
-    OrReason<double> scale;
-    std::string scale_text;
-    std::vector<NoiseCandidate> candidates;
-    OrReason<double> margin;
-    int points_with_velocity_errors = 0, points_with_diameter_errors = 0;
-    OrReason<double> event_spread, setting_sd;
-    bool setting_sd_estimated = false;
-    std::string residuals;  ///< "normal" or "student"
-    OrReason<double> student_dof;
-    std::optional<double> efficiency;
-    std::string text;
-    RECOIL_FIELDS(variance, chosen, scale, scale_text, candidates, margin,
-                  points_with_velocity_errors, points_with_diameter_errors, event_spread,
-                  setting_sd, setting_sd_estimated, residuals, student_dof, efficiency, text)
-  };
+  struct Noise { RECOIL_RESULT(
+      (VarianceFunction, variance, "variance function"),
+      (bool, chosen, "whether the points chose it"),
+      (OrReason<double>, scale, "scale of the estimated noise", "1"),
+      (std::string, scale_text, "the scale in words"),
+      (std::vector<NoiseCandidate>, candidates, "the compared variance functions"),
+      (OrReason<double>, margin, "margin of the choice, in the criterion", "1"),
+      (int, points_with_velocity_errors, "points with an error of V"),
+      (int, points_with_diameter_errors, "points with an error of the diameter"),
+      (OrReason<double>, event_spread, "relative spread of the capture velocity from impact to "
+       "impact", "1"),
+      (OrReason<double>, setting_sd, "error of e that the points of one setting share", "1"),
+      (bool, setting_sd_estimated, "whether this error was estimated"),
+      (std::string, residuals, "distribution of the residuals", "",
+       R"({"enum": ["normal", "student"]})"),
+      (OrReason<double>, student_dof, "degrees of freedom of Student's t", "1"),
+      (OrNull<double>, efficiency, "share of the precision that Student's t keeps", "1"),
+      (std::string, text, "the noise in words")) };
 
-  struct Direction {
-    Named<std::optional<double>> exponents;
-    std::optional<double> relative_sd;
-    std::string words;
-    RECOIL_FIELDS(exponents, relative_sd, words)
-  };
+  struct Direction { RECOIL_RESULT(
+      (Named<OrNull<double>>, exponents, "the combination is the product of the parameters to "
+       "these powers", "1"),
+      (OrNull<double>, relative_sd, "relative standard deviation of the combination", "1"),
+      (std::string, words, "the combination in words")) };
 
-  struct MorePoints {
-    std::string dataset;
-    double diameter_um = 0.0, incident_velocity = 0.0;
-    int points = 0;
-    Named<std::optional<double>> relative_sd;
-    RECOIL_FIELDS(dataset, diameter_um, incident_velocity, points, relative_sd)
-  };
+  struct MorePoints { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (double, diameter_um, "diameter", "um"),
+      (double, incident_velocity, "incident velocity", "m/s"),
+      (int, points, "number of further points"),
+      (Named<OrNull<double>>, relative_sd, "relative errors with these points", "1")) };
 
   /// The information of the points by direction, and the effect of more points.
-  struct Information {
-    std::vector<Direction> directions;
-    Named<std::optional<double>> relative_sd;
-    std::optional<double> condition;
-    std::vector<MorePoints> more_points;
-    RECOIL_FIELDS(directions, relative_sd, condition, more_points)
-  };
+  struct Information { RECOIL_RESULT(
+      (std::vector<Direction>, directions, "combinations of parameters, the best known first"),
+      (Named<OrNull<double>>, relative_sd, "relative standard deviations of the parameters", "1"),
+      (OrNull<double>, condition, "condition number of the information", "1"),
+      (std::vector<MorePoints>, more_points, "the best places for more points")) };
 
-  struct Identifiable {
-    std::optional<IdentifiabilityVerdict> verdict;
-    std::string text;
-    Named<bool> parameters;
-    Information information;
-    RECOIL_FIELDS(verdict, text, parameters, information)
-  };
+  struct Identifiable { RECOIL_RESULT(
+      (OrNull<IdentifiabilityVerdict>, verdict, "whether the points determine the parameters"),
+      (std::string, text, "the verdict in words"),
+      (Named<bool>, parameters, "whether the points determine this parameter"),
+      (Information, information, "what the points determine")) };
 
-  struct Suspect {
-    std::size_t point = 0;  ///< counted from 1
-    std::optional<double> incident_velocity, diameter_um, disturbance_when_failed,
-        disturbance_otherwise;
-    RECOIL_FIELDS(point, incident_velocity, diameter_um, disturbance_when_failed,
-                  disturbance_otherwise)
-  };
+  struct Suspect { RECOIL_RESULT(
+      (std::size_t, point, "number of the point, from 1"),
+      (OrNull<double>, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, diameter_um, "diameter", "um"),
+      (OrNull<double>, disturbance_when_failed, "its disturbance in the failed replicates", "1"),
+      (OrNull<double>, disturbance_otherwise, "its disturbance in the other replicates", "1")) };
 
   struct Failures {
-    std::string text;
-    std::vector<std::uint64_t> replicates;
-    std::string message;
-    std::vector<Suspect> suspects;
-    RECOIL_FIELDS(text, replicates, message, suspects)
-  };
+    using Indices = std::vector<std::uint64_t>;
+    RECOIL_RESULT(
+      (std::string, text, "the failures in words"),
+      (Indices, replicates, "numbers of the failed replicates, at most 100"),
+      (std::string, message, "message of the minimiser"),
+      (std::vector<Suspect>, suspects, "the points with the largest disturbances in them")) };
 
-  struct Bootstrap {
-    Scheme scheme = Scheme::parametric;
-    std::string scheme_why;
-    int replicates = 0, failed = 0;
-    std::optional<Failures> failures;
-    std::optional<double> mc_error_of_width;
-    std::uint64_t seed = 0;
-    std::size_t usable = 0;
-    int two_point_replicates = 0;
-    Named<int> two_point_failed;
-    RECOIL_FIELDS(scheme, scheme_why, replicates, failed, failures, mc_error_of_width, seed, usable,
-                  two_point_replicates, two_point_failed)
-  };
+  struct Bootstrap { RECOIL_RESULT(
+      (Scheme, scheme, "scheme in use"),
+      (std::string, scheme_why, "why this scheme"),
+      (int, replicates, "number of replicates"),
+      (int, failed, "number of replicates whose fit failed"),
+      (OrNull<Failures>, failures, "null if none failed"),
+      (OrNull<double>, mc_error_of_width, "largest Monte-Carlo error of an interval end, over the "
+       "width of the interval", "1"),
+      (std::uint64_t, seed, "seed"),
+      (std::size_t, usable, "number of replicates with an answer"),
+      (int, two_point_replicates, "number of replicates that also ran the two-point iteration"),
+      (Named<int>, two_point_failed, "number of these without an answer, by dataset")) };
 
-  struct Marginal {
-    std::optional<double> mean, sd, r_hat, effective_draws, effective_tail_draws;
-    RECOIL_FIELDS(mean, sd, r_hat, effective_draws, effective_tail_draws)
-  };
+  struct Marginal { RECOIL_RESULT(
+      (OrNull<double>, mean, "posterior mean", "its unit"),
+      (OrNull<double>, sd, "posterior standard deviation", "its unit"),
+      (OrNull<double>, r_hat, "split R-hat of the chains", "1"),
+      (OrNull<double>, effective_draws, "effective number of draws", "1"),
+      (OrNull<double>, effective_tail_draws, "effective number of draws in the tails", "1")) };
 
   struct LeaveOneOut {
-    double elpd = 0.0, se = 0.0, p_loo = 0.0;
-    std::vector<std::optional<double>> elpd_of_points, pareto_k;
-    RECOIL_FIELDS(elpd, se, p_loo, elpd_of_points, pareto_k)
-  };
+    using Terms = std::vector<OrNull<double>>;
+    RECOIL_RESULT(
+      (double, elpd, "expected log predictive density", "1"),
+      (double, se, "its standard error", "1", R"({"minimum": 0})"),
+      (double, p_loo, "effective number of parameters", "1"),
+      (Terms, elpd_of_points, "its term of every point, in the order of `residuals`", "1"),
+      (Terms, pareto_k, "Pareto k of every point; above 0.7 its term means nothing; null: all "
+       "draws have equal weight", "1")) };
 
-  struct Posterior {
-    int steps = 0;
-    std::size_t chains = 0;
-    std::optional<double> acceptance;
-    std::size_t draws = 0;
-    std::optional<std::string> missing;
-    Named<Marginal> parameters;
-    OrReason<LeaveOneOut> loo;
-    RECOIL_FIELDS(steps, chains, acceptance, draws, missing, parameters, loo)
-  };
+  struct Posterior { RECOIL_RESULT(
+      (int, steps, "steps of every chain in the kept round"),
+      (std::size_t, chains, "number of chains"),
+      (OrNull<double>, acceptance, "share of accepted proposals", "1"),
+      (std::size_t, draws, "number of kept draws"),
+      (OrNull<std::string>, missing, "why there is no posterior; null if there is one"),
+      (Named<Marginal>, parameters, "marginal of every parameter, with its convergence"),
+      (OrReason<LeaveOneOut>, loo, "points left out one at a time (PSIS-LOO)")) };
 
-  struct PaperPoint {
-    std::optional<double> incident_velocity, restitution, diameter_um;
-    RECOIL_FIELDS(incident_velocity, restitution, diameter_um)
-  };
+  struct PaperPoint { RECOIL_RESULT(
+      (OrNull<double>, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, restitution, "e", "1"),
+      (OrNull<double>, diameter_um, "diameter", "um")) };
 
-  struct TwoPointParameter {
-    OrReason<double> value;
-    std::string unit;
-    OrReason<double> spread;
-    RECOIL_FIELDS(value, unit, spread)
-  };
+  struct TwoPointParameter { RECOIL_RESULT(
+      (OrReason<double>, value, "calibrated value", "its unit"),
+      (std::string, unit, "unit of the parameter"),
+      (OrReason<double>, spread, "standard deviation under resampling", "its unit")) };
 
-  struct TwoPoint {
-    TwoPointStatus status = TwoPointStatus::converged;
-    std::string text;
-    int iterations = 0;
-    std::optional<double> diameter_um;
-    std::optional<PaperPoint> low_point, high_point;
-    Named<TwoPointParameter> parameters;
-    OrReason<double> rmse, held_out_rmse;
-    int failed = 0;
-    RECOIL_FIELDS(status, text, iterations, diameter_um, low_point, high_point, parameters, rmse,
-                  held_out_rmse, failed)
-  };
+  struct TwoPoint { RECOIL_RESULT(
+      (TwoPointStatus, status, "end of the iteration"),
+      (std::string, text, "the result in words"),
+      (int, iterations, "number of iterations"),
+      (OrNull<double>, diameter_um, "diameter of the two points", "um"),
+      (OrNull<PaperPoint>, low_point, "the slow point"),
+      (OrNull<PaperPoint>, high_point, "the fast point"),
+      (Named<TwoPointParameter>, parameters, "C_H and C_A"),
+      (OrReason<double>, rmse, "root mean square of e - e_model at all points", "1"),
+      (OrReason<double>, held_out_rmse, "the same at the other diameters", "1"),
+      (int, failed, "number of replicates without an answer")) };
 
   /// The full fit, for comparison with two points.
-  struct Full {
-    OrReason<double> rmse, held_out_rmse;
-    OrAbsent<Named<std::optional<double>>> spread;
-    RECOIL_FIELDS(rmse, held_out_rmse, spread)
-  };
+  struct Full { RECOIL_RESULT(
+      (OrReason<double>, rmse, "root mean square of e - e_model at all points", "1"),
+      (OrReason<double>, held_out_rmse, "the same at held-out diameters", "1"),
+      (OrAbsent<Named<OrNull<double>>>, spread, "sd under resampling, by parameter",
+       "its unit")) };
 
-  /// One method of estimating the three parameters of the paper's model; f0 at the reference
-  /// diameter.
-  struct Compared {
-    std::string dataset;
-    ComparisonWay id = ComparisonWay::two_point;
-    OrReason<double> f0, C_H, C_A, C_H_standard_error, C_A_standard_error, rmse, held_out_rmse;
-    RECOIL_FIELDS(dataset, id, f0, C_H, C_A, C_H_standard_error, C_A_standard_error, rmse,
-                  held_out_rmse)
-  };
+  /// One method of estimating the three parameters of the paper's model.
+  struct Compared { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (ComparisonWay, id, "two points, all points with the same f0, or all points with f0 fitted"),
+      (OrReason<double>, f0, "f0 at the reference diameter", "N/m"),
+      (OrReason<double>, C_H, "Hertz damping C_H", "1"),
+      (OrReason<double>, C_A, "adhesion damping C_A", "1"),
+      (OrReason<double>, C_H_standard_error, "standard error of C_H, with the constants, and an f0 "
+       "that is not fitted, as exact", "1"),
+      (OrReason<double>, C_A_standard_error, "the same of C_A", "1"),
+      (OrReason<double>, rmse, "root mean square of e - e_model at all points", "1"),
+      (OrReason<double>, held_out_rmse, "the same at held-out diameters", "1")) };
 
-  struct Start {
-    std::vector<double> start, end;
-    std::optional<double> chi2;
-    bool converged = false;
-    DescentEnd ended = DescentEnd::minimum;
-    std::string message;
-    RECOIL_FIELDS(start, end, chi2, converged, ended, message)
-  };
+  struct Start { RECOIL_RESULT(
+      (std::vector<OrNull<double>>, start, "parameters at the start", "SI"),
+      (std::vector<OrNull<double>>, end, "parameters at the end", "SI"),
+      (OrNull<double>, chi2, "chi2 at the end, of the points that the search used (250 to 374 of "
+       "them if there are more than 500)", "1"),
+      (bool, converged, "true for a minimum and a valley"),
+      (DescentEnd, ended, "as `solver.ended`, or the iteration limit, or no answer of the model"),
+      (std::string, message, "message of the minimiser")) };
 
-  struct CurvePoint {
-    std::string dataset, series;
-    std::optional<double> diameter_um, incident_velocity, restitution;
-    std::optional<Ends> band;
-    std::optional<double> two_point;
-    RECOIL_FIELDS(dataset, series, diameter_um, incident_velocity, restitution, band, two_point)
-  };
+  struct CurvePoint { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (std::string, series, "series"),
+      (OrNull<double>, diameter_um, "diameter", "um"),
+      (OrNull<double>, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, restitution, "e of the fit", "1"),
+      (OrNull<Ends>, band, "its pointwise band", "1"),
+      (OrNull<double>, two_point, "e of the two-point calibration", "1")) };
 
   /// One point of the data with its residual.
-  struct Residual {
-    std::string dataset, series;
-    std::optional<double> diameter_um, incident_velocity, restitution, restitution_sd, sd_used,
-        sd_of_e2_from_inputs;
-    bool captured = false;
-    int captured_count = 0, events = 0;
-    std::optional<double> predicted, weighted_residual, leverage;
-    RECOIL_FIELDS(dataset, series, diameter_um, incident_velocity, restitution, restitution_sd,
-                  sd_used, sd_of_e2_from_inputs, captured, captured_count, events, predicted,
-                  weighted_residual, leverage)
-  };
+  struct Residual { RECOIL_RESULT(
+      (std::string, dataset, "dataset"),
+      (std::string, series, "series"),
+      (OrNull<double>, diameter_um, "diameter", "um"),
+      (OrNull<double>, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, restitution, "e as measured", "1"),
+      (OrNull<double>, restitution_sd, "its stated standard deviation; null if the point states "
+       "none", "1"),
+      (OrNull<double>, sd_used, "standard deviation of e in the fit", "1"),
+      (OrNull<double>, sd_of_e2_from_inputs, "standard deviation of e² from the errors of V and "
+       "the diameter", "1"),
+      (bool, captured, "true if all impacts were captured"),
+      (int, captured_count, "number of captured impacts"),
+      (int, events, "number of impacts"),
+      (OrNull<double>, predicted, "e of the fit", "1"),
+      (OrNull<double>, weighted_residual, "residual of e² over its standard deviation", "1"),
+      (OrNull<double>, leverage, "leverage of the point", "1")) };
 
-  struct OwnDesign {
-    struct Coverage {
-      std::string quantity, method;
-      double share = 0.0;
-      int datasets = 0;
-      RECOIL_FIELDS(quantity, method, share, datasets)
-    };
-    std::vector<Coverage> coverage;
-    RECOIL_FIELDS(coverage)
-  };
+  struct OwnCoverageEntry { RECOIL_RESULT(
+      (std::string, quantity, "a parameter, or V*(diameter)"),
+      (std::string, method, "the kind of interval that was counted", "",
+       R"({"enum": ["wald", "profile", "delta"]})"),
+      (double, share, "share of the data sets whose interval contains the truth", "1"),
+      (int, datasets, "number of simulated data sets with such an interval", "", at_least_one)) };
 
-  int format_version = recoil::format_version;
-  std::string recoil_version;
-  Source fit;
-  std::string provenance_sentence;
-  DatasetEntry dataset;  ///< several datasets combined into one, with the weakest provenance
-  std::vector<DatasetEntry> datasets;
-  std::vector<RestitutionMeanEntry> restitution_summary;
-  VelocityDependenceEntry velocity_dependence;
-  SeriesDifferEntry series_differ;
-  std::vector<LossLawEntry> loss_laws;  ///< the best first; empty if no choice was made
-  Options options;
-  Model model;
-  Named<Parameter> parameters;
-  Named<Constant> constants;
-  std::optional<Matrix> covariance, correlation;
-  Derived derived;
-  SolverUse solver;
-  Goodness goodness;
-  Noise noise;
-  Identifiable identifiability;
-  std::vector<ValidityEntry> validity;
-  Bootstrap bootstrap;
-  OrAbsent<OwnDesign> own_design;
-  std::optional<Posterior> posterior;
-  std::vector<Compared> comparison;
-  OrReason<TwoPoint> two_point;  ///< of the first dataset
-  Full full;                     ///< of the first dataset
-  Named<TwoPoint> two_point_by_dataset;
-  Named<Full> full_by_dataset;
-  std::vector<Start> starts;
-  std::vector<std::string> warnings;
-  std::vector<CurvePoint> curve;
-  std::vector<Residual> residuals;
-  RECOIL_FIELDS(format_version, recoil_version, fit, provenance_sentence, dataset, datasets,
-                restitution_summary, velocity_dependence, series_differ, loss_laws, options, model,
-                parameters, constants, covariance, correlation, derived, solver, goodness, noise,
-                identifiability, validity, bootstrap, own_design, posterior, comparison, two_point,
-                full, two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
-};
+  struct OwnDesign { RECOIL_RESULT(
+      (std::vector<OwnCoverageEntry>, coverage, "every quantity with a quoted interval")) };
+
+  RECOIL_RESULT(
+    (FormatVersion, format_version, about_format_version),
+    (std::string, recoil_version, about_recoil_version),
+    (Source, fit, "the fit file"),
+    (std::string, provenance_sentence, "the meaning of the provenance, for all datasets"),
+    (DatasetEntry, dataset, "the dataset; several are joined, with the weakest provenance of them"),
+    (std::vector<DatasetEntry>, datasets, "each dataset"),
+    (std::vector<RestitutionMeanEntry>, restitution_summary, about_restitution_summary),
+    (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
+    (SeriesDifferEntry, series_differ, about_series_differ),
+    (std::vector<LossLawEntry>, loss_laws, "without adhesion, and if the fit file names no loss: "
+     "every loss law, the best first"),
+    (Options, options, "the options in use, after command line and defaults"),
+    (Model, model, "the model"),
+    (Named<Parameter>, parameters, "by name; NAME[DATASET] or NAME[SERIES] if it belongs to one "
+     "dataset or series"),
+    (Named<Constant>, constants, "constants of the materials that have an error"),
+    (OrNull<Matrix>, covariance, "covariance of the free parameters", "SI"),
+    (OrNull<Matrix>, correlation, "correlation of the free parameters", "1"),
+    (Derived, derived, "quantities that follow from the parameters"),
+    (SolverUse, solver, "solver and minimiser"),
+    (Goodness, goodness, "quality of the fit"),
+    (Noise, noise, "noise of the points"),
+    (Identifiable, identifiability, "what the points determine"),
+    (std::vector<ValidityEntry>, validity, "limits of validity of the model, at the worst point of "
+     "each dataset"),
+    (Bootstrap, bootstrap, "the bootstrap"),
+    (OrAbsent<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
+     "with these points, noise and captures; absent if it was not counted"),
+    (OrNull<Posterior>, posterior, "null without `posterior = true`"),
+    (std::vector<Compared>, comparison, "two points against all points: three rows per dataset"),
+    (OrReason<TwoPoint>, two_point, "the two-point calibration of the first dataset"),
+    (Full, full, "the same comparison for the full fit, first dataset"),
+    (Named<TwoPoint>, two_point_by_dataset, "the same, by dataset"),
+    (Named<Full>, full_by_dataset, "the same, by dataset"),
+    (std::vector<Start>, starts, "every starting point of the fit"),
+    (Strings, warnings, "the assumptions, and which of two contradictory inputs was used"),
+    (std::vector<CurvePoint>, curve, "e(V) of the fit"),
+    (std::vector<Residual>, residuals, "every point")) };
+
+// clang-format on
 
 /// The interval of a parameter to quote; nullopt if there is none.
 std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter);

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json.hpp"
 #include "core/numerics.hpp"  // log_spaced
 #include "data/dataset.hpp"
 #include "data/measured_sizes.hpp"
@@ -50,7 +49,6 @@ struct CurveMiss {
   /// Root mean square of e - e_predicted over the points with a prediction [1].
   std::optional<double> rmse;
   std::size_t points = 0;  ///< number of these points
-  RECOIL_FIELDS(rmse, points)
 };
 
 /// The response of a mixture of sizes under a fit.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/likelihood.hpp"
 #include "report/format.hpp"
@@ -298,18 +299,18 @@ std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
 
 namespace {
 
-Json fit_json_of(const ComparedFit& fit, std::optional<double> best) {
+ComparisonFile::Fit fit_of(const ComparedFit& fit, std::optional<double> best) {
   const auto aicc = fit.aicc();
-  return {{"id", fit.id},
-          {"adhesion", fit.adhesion},
-          {"mechanisms", fit.mechanisms},
-          {"free_parameters", fit.free_parameters},
-          {"points", fit.points},
-          {"chi2", number_or_null(fit.chi2)},
-          {"aicc", as_json(aicc)},
-          {"aicc_above_best", number_or_null(aicc && best ? *aicc - *best : NAN)},
-          {"rmse", number_or_null(fit.rmse)},
-          {"held_out_rmse", as_json(fit.held_out_rmse)}};
+  return {.id = fit.id,
+          .adhesion = value_named<AdhesionLaw>(fit.adhesion).value(),
+          .mechanisms = fit.mechanisms,
+          .free_parameters = fit.free_parameters,
+          .points = fit.points,
+          .chi2 = fit.chi2,
+          .aicc = aicc,
+          .aicc_above_best = aicc && best ? OrNull(*aicc - *best) : std::nullopt,
+          .rmse = fit.rmse,
+          .held_out_rmse = fit.held_out_rmse};
 }
 
 }  // namespace
@@ -317,32 +318,26 @@ Json fit_json_of(const ComparedFit& fit, std::optional<double> best) {
 std::string comparison_json(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
   const std::optional<double> best = lowest_aicc(fits);
-  Json out = result_head();
-  out["data"] = fits.front().data;
-  out["fits"] = Json::array();
-  for (const ComparedFit& fit : fits) out["fits"].push_back(fit_json_of(fit, best));
+  ComparisonFile out = {.recoil_version = version(), .data = fits.front().data};
+  for (const ComparedFit& fit : fits) out.fits.push_back(fit_of(fit, best));
   const ChoiceDependence dependence = choice_dependence(fits);
-  out["quantities"] = Json::array();
   for (const std::string& name : compared_names(fits)) {
-    Json entry = {{"name", name}, {"unit", ""}, {"fits", Json::array()}};
+    ComparisonFile::Quantity& entry = out.quantities.emplace_back();
+    entry.name = name;
     for (const ComparedFit& fit : fits) {
-      Json& of_fit = entry["fits"].emplace_back();
+      auto& of_fit = entry.fits.emplace_back();
       const ComparedQuantity* const found = quantity_of(fit, name);
       if (found == nullptr) continue;
-      entry["unit"] = found->unit;
-      of_fit = {{"value", number_or_null(found->value)},
-                {"free", found->free},
-                {"interval", as_json(found->interval)}};
+      entry.unit = found->unit;
+      of_fit = {found->value, found->free, found->interval};
     }
     const auto is_in = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
-    entry["depends_on_choice"] = is_in(dependence.depends) || is_in(dependence.holds)
-                                     ? Json(is_in(dependence.depends))
-                                     : Json(nullptr);
-    out["quantities"].push_back(std::move(entry));
+    if (is_in(dependence.depends)) entry.depends_on_choice = true;
+    if (is_in(dependence.holds)) entry.depends_on_choice = false;
   }
-  return json_text(out);
+  return text_of(out);
 }
 
 }  // namespace recoil

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/json.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "document/html.hpp"
@@ -212,44 +212,24 @@ std::optional<double> whole_number(const std::optional<double>& value) {
   return value ? std::optional(std::ceil(*value)) : std::nullopt;
 }
 
-Json assumed_json(const ExperimentPlan& plan) {
-  Json out;
-  for (std::size_t j = 0; j < plan.theta.size(); ++j) {
-    const ParameterSlot& slot = plan.model.slots[j];
-    out[slot.label()] = {{"value", number_or_null(plan.theta[j])},
-                         {"unit", slot.parameter->unit},
-                         {"free", slot.free}};
-  }
-  return out;
-}
-
-Json place_json(const ExperimentPlan& plan, std::size_t dataset, double diameter, double velocity) {
-  return {{"dataset", plan.datasets[dataset].id},
-          {"diameter_um", diameter / units::um},
-          {"incident_velocity", velocity}};
-}
-
-Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
-  Json out;
-  out["kind"] = quantity.is_parameter() ? "parameter" : "capture_velocity";
-  if (quantity.is_parameter()) {
-    out["parameter"] = quantity.label;
+PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
+  PlanFile::Quantity out = {.kind = quantity.kind,
+                            .value = quantity.value,
+                            .unit = quantity.unit,
+                            .relative_error = quantity.error,
+                            .relative_error_even = quantity.plain_error,
+                            .impacts = whole_number(quantity.impacts),
+                            .impacts_even = whole_number(quantity.plain_impacts),
+                            .impacts_alone = whole_number(quantity.alone_impacts)};
+  if (quantity.kind == PlannedKind::parameter) {
+    out.parameter = quantity.label;
   } else {
-    out["dataset"] = plan.datasets[quantity.dataset].id;
-    out["diameter_um"] = quantity.diameter / units::um;
+    out.dataset = plan.datasets[quantity.dataset].id;
+    out.diameter_um = quantity.diameter / units::um;
   }
-  out["value"] = number_or_null(quantity.value);
-  out["unit"] = quantity.unit;
-  out["relative_error"] = number_or_null(quantity.error);
-  out["relative_error_even"] = number_or_null(quantity.plain_error);
-  out["impacts"] = as_json(whole_number(quantity.impacts));
-  out["impacts_even"] = as_json(whole_number(quantity.plain_impacts));
-  out["impacts_alone"] = as_json(whole_number(quantity.alone_impacts));
-  out["learnt_at"] = Json::array();
   for (const LearntAt& at : quantity.learnt_at) {
-    Json place = place_json(plan, at.dataset, at.diameter, at.velocity);
-    place["share"] = at.share;
-    out["learnt_at"].push_back(std::move(place));
+    out.learnt_at.push_back(
+        {plan.datasets[at.dataset].id, at.diameter / units::um, at.velocity, at.share});
   }
   return out;
 }
@@ -258,41 +238,41 @@ Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) 
 
 std::string json_plan(const ExperimentPlan& plan) {
   const PlanOptions& options = plan.options;
-  Json out = result_head();
-  out["fit"] = plan.fit;
-  out["datasets"] = Json::array();
+  PlanFile out = {.recoil_version = version(),
+                  .fit = plan.fit,
+                  .assumed = {.velocities = {options.slowest, options.fastest},
+                              .scatter = options.scatter,
+                              .floor = options.floor,
+                              .spread = options.spread},
+                  .wanted_error = options.error,
+                  .reached = plan.reached,
+                  .checks = options.checks,
+                  .points = plan.points,
+                  .events_per_point = options.events,
+                  .impacts = plan.impacts,
+                  .efficiency = plan.efficiency};
   for (const Dataset& dataset : plan.datasets) {
-    out["datasets"].push_back({{"id", dataset.id},
-                               {"particle", dataset.system.particle.name},
-                               {"surface", dataset.system.surface.name}});
+    out.datasets.push_back({dataset.id, dataset.system.particle.name, dataset.system.surface.name});
   }
-  out["assumed"] = {{"parameters", assumed_json(plan)},
-                    {"velocities", {options.slowest, options.fastest}},
-                    {"scatter", options.scatter},
-                    {"floor", options.floor},
-                    {"spread", options.spread}};
-  out["wanted_error"] = options.error;
-  out["reached"] = plan.reached;
-  out["checks"] = options.checks;
-  out["points"] = plan.points;
-  out["events_per_point"] = options.events;
-  out["impacts"] = plan.impacts;
-  out["efficiency"] = number_or_null(plan.efficiency);
-  out["settings"] = Json::array();
+  for (std::size_t j = 0; j < plan.theta.size(); ++j) {
+    const ParameterSlot& slot = plan.model.slots[j];
+    out.assumed.parameters.push_back(
+        {slot.label(), {plan.theta[j], std::string(slot.parameter->unit), slot.free}});
+  }
   for (const PlannedSetting& setting : plan.settings) {
-    Json row = place_json(plan, setting.dataset, setting.diameter, setting.velocity);
-    row["points"] = setting.points;
-    row["impacts"] = setting.points * options.events;
-    row["restitution"] = number_or_null(setting.restitution);
-    row["restitution_sd"] = setting.sd > 0.0 ? Json(setting.sd) : Json(nullptr);
-    row["captured"] = setting.captured;
-    out["settings"].push_back(std::move(row));
+    out.settings.push_back({.dataset = plan.datasets[setting.dataset].id,
+                            .diameter_um = setting.diameter / units::um,
+                            .incident_velocity = setting.velocity,
+                            .points = setting.points,
+                            .impacts = setting.points * options.events,
+                            .restitution = setting.restitution,
+                            .restitution_sd = setting.sd > 0.0 ? OrNull(setting.sd) : std::nullopt,
+                            .captured = setting.captured});
   }
-  out["quantities"] = Json::array();
   for (const PlannedQuantity& quantity : plan.quantities) {
-    out["quantities"].push_back(quantity_json(plan, quantity));
+    out.quantities.push_back(quantity_of(plan, quantity));
   }
-  return json_text(out);
+  return text_of(out);
 }
 
 std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset) {

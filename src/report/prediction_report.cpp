@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
@@ -236,9 +235,10 @@ std::string cells(const BandedValue& at) {
   return fmt::format(",{},{},{}", cell(at.value), cell(at.lower), cell(at.upper));
 }
 
-Json banded_json(const BandedValue& at) {
-  return {{"value", as_json(at.value)},
-          {"band", at.lower && at.upper ? Json::array({*at.lower, *at.upper}) : Json()}};
+PredictionFile::Banded banded_entry(const BandedValue& at) {
+  PredictionFile::Banded out = {.value = at.value};
+  if (at.lower && at.upper) out.band = {*at.lower, *at.upper};
+  return out;
 }
 
 }  // namespace
@@ -263,57 +263,50 @@ std::string csv_prediction(const PolydispersePrediction& mixture) {
 }
 
 std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
-  Json out;
-  out["format_version"] = format_version;
-  out["recoil"] = version();
-  out["fit"] = analysis.spec.id;
-  out["dataset"] = dataset_json(analysis.datasets[mixture.dataset]);
-  Json bins = Json::array();
+  const auto miss_of = [](const CurveMiss& miss) {
+    return PredictionFile::Miss{miss.rmse, miss.points};
+  };
+  const auto convention = [&](CaptureConvention one) {
+    return PredictionFile::Convention{words_of(one),
+                                      miss_of(mixture.miss[static_cast<std::size_t>(one)])};
+  };
+  PredictionFile out = {
+      .recoil = version(),
+      .fit = analysis.spec.id,
+      .dataset = dataset_reference(analysis.datasets[mixture.dataset]),
+      .sizes = {.file = mixture.sizes.file.string(),
+                .provenance = mixture.sizes.provenance,
+                .description = mixture.sizes.description,
+                .sha256 = mixture.sizes.sha256,
+                .d10_um = mixture.sizes.mean_diameter() / units::um,
+                .simulated = mixture.simulated},
+      .probe_height_m = mixture.probe_height,
+      .slowest_seen_m_s = mixture.slowest_seen,
+      .level = mixture.level,
+      .replicates = mixture.replicates,
+      .seed = analysis.uncertainty.bootstrap.seed,
+      .conventions = {.captured_as_zero = convention(CaptureConvention::captured_as_zero),
+                      .captured_left_out = convention(CaptureConvention::captured_left_out),
+                      .unseen_left_out = convention(CaptureConvention::unseen_left_out)},
+      .d10_alone = {miss_of(mixture.miss_single)}};
   for (const SizeBin& bin : mixture.sizes.bins) {
-    bins.push_back({{"diameter_um", bin.diameter / units::um},
-                    {"width_um", bin.width / units::um},
-                    {"weight", bin.weight}});
+    out.sizes.bins.push_back({bin.diameter / units::um, bin.width / units::um, bin.weight});
   }
-  out["sizes"] = {{"file", mixture.sizes.file.string()},
-                  {"provenance", mixture.sizes.provenance},
-                  {"description", mixture.sizes.description},
-                  {"sha256", mixture.sizes.sha256},
-                  {"d10_um", mixture.sizes.mean_diameter() / units::um},
-                  {"simulated", mixture.simulated},
-                  {"bins", bins}};
-  out["probe_height_m"] = mixture.probe_height;
-  out["slowest_seen_m_s"] = mixture.slowest_seen;
-  out["level"] = mixture.level;
-  out["replicates"] = mixture.replicates;
-  out["seed"] = analysis.uncertainty.bootstrap.seed;
-  Json conventions;
-  for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
-    conventions[std::string(capture_conventions[c].name)] = {
-        {"means", capture_conventions[c].words}, {"miss", as_json(mixture.miss[c])}};
-  }
-  out["conventions"] = conventions;
-  out["d10_alone"] = {{"miss", as_json(mixture.miss_single)}};
-  Json sizes = Json::array();
   for (const SizeCurve& size : mixture.size_curves) {
-    sizes.push_back({{"name", size.name},
-                     {"diameter_um", size.diameter / units::um},
-                     {"capture_velocity", number_or_null(size.capture_velocity)},
-                     {"restitution", as_json(size.restitution)}});
+    out.size_curves.push_back({.name = size.size,
+                               .diameter_um = size.diameter / units::um,
+                               .capture_velocity = size.capture_velocity,
+                               .restitution = {size.restitution.begin(), size.restitution.end()}});
   }
-  out["size_curves"] = sizes;
-  Json rows = Json::array();
   for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
-    Json row;
-    row["incident_velocity"] = mixture.velocity[k];
-    for (std::size_t c = 0; c < capture_conventions.size(); ++c) {
-      row[std::string(capture_conventions[c].name)] = banded_json(mixture.average[c][k]);
-    }
-    row["captured_fraction"] = banded_json(mixture.captured[k]);
-    row["unseen_fraction"] = banded_json(mixture.unseen[k]);
-    rows.push_back(row);
+    out.curve.push_back({.incident_velocity = mixture.velocity[k],
+                         .captured_as_zero = banded_entry(mixture.average[0][k]),
+                         .captured_left_out = banded_entry(mixture.average[1][k]),
+                         .unseen_left_out = banded_entry(mixture.average[2][k]),
+                         .captured_fraction = banded_entry(mixture.captured[k]),
+                         .unseen_fraction = banded_entry(mixture.unseen[k])});
   }
-  out["curve"] = rows;
-  return json_text(out);
+  return text_of(out);
 }
 
 }  // namespace recoil

@@ -12,19 +12,16 @@
 #include "experiment/passages.hpp"
 #include "json/diagnosis_file.hpp"
 #include "json/fit_file.hpp"
+#include "json/printed_results.hpp"
 #include "predict/simulated_impact.hpp"
 #include "report/comparison_report.hpp"
 
 /// The JSON files of results. Missing numbers are null, if possible with a reason.
 namespace recoil {
 
-/// A JSON object with the versions of the format and the program.
-Json result_head();
-
 DatasetEntry dataset_entry(const Dataset& dataset);
 
-/// A dataset in the JSON of a simulated impact or a mixture.
-Json dataset_json(const Dataset& dataset);
+DatasetReference dataset_reference(const Dataset& dataset);
 
 /// One check of the limits of the model, without dataset, diameter and velocity.
 ValidityEntry validity_entry(const Validity& check);

@@ -13,8 +13,6 @@ DiagnosisFile::Misfit misfit_of(const Diagnosis& d) {
   DiagnosisFile::Misfit out = {.p_value = d.structure.p_value,
                                .simulated = d.structure.simulated,
                                .failed = d.structure.failed,
-                               .tests = {},
-                               .where = {},
                                .free_form_remaining_p = d.free_form_p};
   for (const StructureTest& test : d.structure.tests) {
     out.tests.push_back({.id = test.question,
@@ -74,9 +72,7 @@ std::optional<DiagnosisFile::Gain> gain_of(const Diagnosis& d) {
   DiagnosisFile::Gain out = {.held_out_rmse_base = gain->rmse_base,
                              .held_out_rmse_extended = gain->rmse_extended,
                              .relative = gain->relative,
-                             .interval = {},
-                             .log_score = gain->log_score,
-                             .folds = {}};
+                             .log_score = gain->log_score};
   if (gain->lower && gain->upper) out.interval = {*gain->lower, *gain->upper};
   for (const HeldOutGain::PerFold& one : gain->folds) {
     out.folds.push_back({.kind = one.fold.kind,
@@ -92,8 +88,7 @@ std::optional<DiagnosisFile::Gain> gain_of(const Diagnosis& d) {
 }
 
 DiagnosisFile::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
-  DiagnosisFile::Fit out = {
-      .parameters = {}, .chi2 = fitted.chi2, .dof = fitted.dof, .rmse = fitted.rmse};
+  DiagnosisFile::Fit out = {.chi2 = fitted.chi2, .dof = fitted.dof, .rmse = fitted.rmse};
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     if (slot.is_constant()) continue;

@@ -90,8 +90,7 @@ FitFile::Options options_of(const Analysis& a) {
       .level = options.level,
       .seed = options.seed,
       .materials = a.spec.uncertainty.materials != Materials::exact,
-      .materials_adjusted = a.spec.uncertainty.materials == Materials::adjusted,
-      .parameters = {}};
+      .materials_adjusted = a.spec.uncertainty.materials == Materials::adjusted};
   for (const ParameterSlot& slot : a.fitted.model.slots) {
     if (slot.is_constant()) continue;
     out.parameters.push_back(
@@ -140,7 +139,7 @@ FitFile::Intervals intervals_entry(const Analysis& a, std::size_t slot, const In
   }
   const Interval& quoted = recommended_interval(set);
   out.recommended.why = quoted.available() ? recommended_words(set) : why_none(quoted);
-  if (quoted.available()) out.recommended.interval = to_string(set.recommended);
+  if (quoted.available()) out.recommended.interval = set.recommended;
   const std::optional<PosteriorResult>& posterior = a.uncertainty.posterior;
   if (posterior && posterior->available()) {
     out.posterior = ends_of(posterior->parameters[slot].interval);
@@ -190,8 +189,12 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   out.recommended = out.intervals.recommended;
   out.profile_shape = set[IntervalKind::profile].shape;
   const Sentence label = symbol(slot.label());
+  out.intervals_mc_error = {.wald = mc_error(set[IntervalKind::wald]),
+                            .profile = mc_error(set[IntervalKind::profile]),
+                            .percentile = mc_error(set[IntervalKind::percentile]),
+                            .bca = mc_error(set[IntervalKind::bca]),
+                            .studentized = mc_error(set[IntervalKind::studentized])};
   for (const IntervalKind kind : values_of<IntervalKind>()) {
-    out.intervals_mc_error.emplace_back(to_string(kind), mc_error(set[kind]));
     if (!set[kind].note) continue;
     out.intervals_note.emplace_back(to_string(kind), plain_text(note_words(set[kind], label)));
   }
@@ -204,8 +207,8 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
     out.materials_exact.emplace(FitFile::MaterialsExact{
         .value = exact->fitted.theta[s],
         .std_error = exact->fitted.std_error[s],
-        .intervals = {{"wald", ends_of(exact->intervals[s][IntervalKind::wald])},
-                      {"profile", ends_of(exact->intervals[s][IntervalKind::profile])}}});
+        .intervals = {.wald = ends_of(exact->intervals[s][IntervalKind::wald]),
+                      .profile = ends_of(exact->intervals[s][IntervalKind::profile])}});
   }
   return out;
 }
@@ -282,7 +285,7 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
     if (posterior && posterior->available()) {
       out.intervals.posterior.emplace(ends_of(posterior->capture[k].interval));
     }
-    if (capture.because) out.recommended.interval = to_string(capture.recommended);
+    if (capture.because) out.recommended.interval = capture.recommended;
     out.recommended.why = recommended_words(capture);
     if (!out.interval) out.why = why_none(capture.interval);
     if (k < a.uncertainty.capture_budgets.size()) {
@@ -396,12 +399,10 @@ FitFile::Bootstrap bootstrap_of(const Analysis& a) {
                             .scheme_why = scheme_words(bootstrap),
                             .replicates = bootstrap.replicates,
                             .failed = bootstrap.failed,
-                            .failures = {},
                             .mc_error_of_width = bootstrap.relative_error,
                             .seed = bootstrap.seed,
                             .usable = bootstrap.theta.size(),
-                            .two_point_replicates = bootstrap.two_point_replicates,
-                            .two_point_failed = {}};
+                            .two_point_replicates = bootstrap.two_point_replicates};
   for (std::size_t k = 0; k < a.datasets.size() && k < bootstrap.two_point_failed.size(); ++k) {
     out.two_point_failed.emplace_back(a.datasets[k].id, bootstrap.two_point_failed[k]);
   }
@@ -431,16 +432,12 @@ std::optional<FitFile::Posterior> posterior_of(const Analysis& a) {
   FitFile::Posterior out = {.steps = found.steps,
                             .chains = found.chains,
                             .acceptance = found.acceptance,
-                            .draws = found.draws.size(),
-                            .missing = {},
-                            .parameters = {},
-                            .loo = {}};
+                            .draws = found.draws.size()};
   if (!found.available()) out.missing = no_posterior_words(found);
   out.loo.why = no_leave_one_out_words(found);
   if (out.loo.why.empty()) {
     const LeaveOneOut& loo = found.left_out;
-    out.loo.value = {
-        .elpd = loo.elpd, .se = loo.se, .p_loo = loo.p_loo, .elpd_of_points = {}, .pareto_k = {}};
+    out.loo.value = {.elpd = loo.elpd, .se = loo.se, .p_loo = loo.p_loo};
     for (const LeftOutPoint& point : loo.points) {
       out.loo.value->elpd_of_points.push_back(point.elpd);
       out.loo.value->pareto_k.push_back(point.pareto_k);
@@ -581,27 +578,30 @@ std::vector<FitFile::CurvePoint> curve_of(const Analysis& a) {
 
 std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
   const FitResult& f = a.fitted;
+  std::vector<std::optional<double>> stated;
+  for (const Dataset& dataset : a.datasets) {
+    for (const ImpactPoint& point : dataset.points) stated.push_back(point.restitution_sd);
+  }
   std::vector<FitFile::Residual> rows;
   for (std::size_t i = 0; i < f.data.points.size(); ++i) {
     const Observation& point = f.data.points[i];
     const PointWeights& own = f.weights.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     const bool in_series = point.series < dataset.series.size();
-    rows.push_back(
-        {.dataset = dataset.id,
-         .series = in_series ? dataset.series[point.series] : "",
-         .diameter_um = in_um(point.diameter),
-         .incident_velocity = point.velocity,
-         .restitution = only_if(!point.counts_only(), point.restitution),
-         .restitution_sd = only_if(f.data.noise.sd_stated && !point.counts_only(), own.sd),
-         .sd_used = own.sd,
-         .sd_of_e2_from_inputs = own.input_sd,
-         .captured = point.rebounds() == 0,
-         .captured_count = point.captured,
-         .events = point.events,
-         .predicted = at(f.prediction, i),
-         .weighted_residual = at(f.residuals, i),
-         .leverage = at(f.leverage, i)});
+    rows.push_back({.dataset = dataset.id,
+                    .series = in_series ? dataset.series[point.series] : "",
+                    .diameter_um = in_um(point.diameter),
+                    .incident_velocity = point.velocity,
+                    .restitution = only_if(!point.counts_only(), point.restitution),
+                    .restitution_sd = stated.at(i),
+                    .sd_used = own.sd,
+                    .sd_of_e2_from_inputs = own.input_sd,
+                    .captured = point.rebounds() == 0,
+                    .captured_count = point.captured,
+                    .events = point.events,
+                    .predicted = at(f.prediction, i),
+                    .weighted_residual = at(f.residuals, i),
+                    .leverage = at(f.leverage, i)});
   }
   return rows;
 }
@@ -712,8 +712,8 @@ std::string fit_json(const Analysis& a) {
   out.posterior = posterior_of(a);
   set_two_point(out, a);
   for (const StartSummary& start : f.starts) {
-    out.starts.push_back({.start = start.start,
-                          .end = start.end,
+    out.starts.push_back({.start = {start.start.begin(), start.start.end()},
+                          .end = {start.end.begin(), start.end.end()},
                           .chi2 = start.chi2,
                           .converged = start.converged(),
                           .ended = start.ending,

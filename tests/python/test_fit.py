@@ -166,6 +166,17 @@ def test_the_schemas_come_along():
         recoil.schema("fits")
 
 
+def test_a_key_is_described_with_its_unit():
+    assert recoil.describe("goodness.rmse") == "root mean square of e - e_model [1]"
+    assert recoil.describe("parameters.C_H.free") == "whether it was fitted"
+    assert recoil.describe("derived.capture_velocity[0].interval").endswith("[m/s]")
+    assert "p-value" in recoil.describe("candidates[].p_value", "diagnosis")
+    with pytest.raises(recoil.InputError, match="no key 'goodness.rms'.*choose one of chi2, chi2_why, dof"):
+        recoil.describe("goodness.rms")
+    with pytest.raises(recoil.InputError, match="no key 'goodness.rmse.value'"):
+        recoil.describe("goodness.rmse.value")
+
+
 def test_what_comes_from_elsewhere_is_not_needed_to_import():
     code = ("import sys, recoil; "
             "assert not {'matplotlib', 'pandas', 'numpy'} & set(sys.modules), 'imported too early'")

@@ -6,7 +6,7 @@ import re
 
 import jsonschema
 import pytest
-from conftest import SOURCE, command_in, furnish
+from conftest import PACKAGE, SOURCE, command_in, furnish, write_dataset
 
 RESULTS = {
     "fit": [
@@ -17,6 +17,8 @@ RESULTS = {
         ["fit", "mechanism.toml"],
         ["fit", "fixed.toml"],
         ["fit", "unstated.toml"],
+        ["fit", "partly.toml"],
+        ["fit", "dry.toml"],
         ["fit", "fits/wall1990-all.toml", "--replicates", "19"],
         ["fit", "fits/dahneke1975-quartz.toml", "--replicates", "19"],
         ["fit", "unstated.toml", "--replicates", "auto"],
@@ -36,16 +38,24 @@ RESULTS = {
         ["simulate", "mine.toml", "--velocity", "0.1", "--diameter", "4"],
         ["simulate", "maugis.toml", "--velocity", "5", "--diameter", "4"],
         ["simulate", "mechanism.toml", "--velocity", "5", "--diameter", "4.9"],
+        ["simulate", "dry.toml", "--velocity", "5", "--diameter", "4"],
     ],
-    "coverage": [["coverage", "mine.toml", "--datasets", "3", "--replicates", "19"]],
+    "coverage": [
+        ["coverage", "mine.toml", "--datasets", "3", "--replicates", "19"],
+        ["coverage", "dry.toml", "--datasets", "3", "--replicates", "19"],
+    ],
     "compare": [["compare", "one.json", "two.json"]],
     "plan": [
         ["plan", "mine.toml"],
         ["plan", "maugis.toml", "--impacts", "300", "--diameter", "1,4"],
         ["plan", "fits/wall1990-all.toml", "--impacts", "2000"],
+        ["plan", "dry.toml", "--velocity", "1,10"],
     ],
     "pair": [["pair", "events.csv", "--unit", "time=s,velocity=m/s,diameter=um"]],
 }
+
+
+PARTLY = 6  # the line of partly/points.csv that states no restitution_sd
 
 
 def schema(name):
@@ -81,6 +91,16 @@ def place(tmp_path_factory):
     (place / "unstated/points.csv").write_text(
         "".join(",".join(r[:4] + r[5:]) + "\n" for r in rows))
     (place / "unstated.toml").write_text(head.replace("mine", "unstated"))
+    lines = (place / "mine/points.csv").read_text().splitlines()
+    lines[PARTLY] = lines[PARTLY].replace(",0.015,", ",,")
+    write_dataset(place / "partly", "\n".join(lines) + "\n")
+    (place / "partly.toml").write_text(head.replace("mine", "partly"))
+    (place / "dry").mkdir()
+    rebounds = [line for line in lines if not line.endswith(",20,20")]
+    (place / "dry/points.csv").write_text("\n".join(rebounds) + "\n")
+    (place / "dry/datapackage.json").write_text(json.dumps(
+        {**PACKAGE, "name": "dry", "recoil": {**PACKAGE["recoil"], "adhesion_energy": 0}}))
+    (place / "dry.toml").write_text(head.replace("mine", "dry"))
     for name, adhesion in (("one", "ring"), ("two", "jkr")):
         (place / f"{name}.toml").write_text(head + f'[model]\nadhesion = "{adhesion}"\n')
         (place / f"{name}.json").write_text(command("fit", f"{name}.toml", "--json").out)
@@ -91,10 +111,28 @@ def place(tmp_path_factory):
     return place
 
 
-@pytest.mark.parametrize("name, words", [(n, w) for n in RESULTS for w in RESULTS[n]],
-                         ids=lambda x: x if isinstance(x, str) else "-".join(x[:2]))
-def test_stdout_is_valid_json_and_nothing_else(command, name, words):
-    done = command(*words, "--json")
+@pytest.fixture(scope="module")
+def printed(place):
+    """What a command prints with --json, run once."""
+    command = command_in(place)
+    done = {}
+
+    def run(words):
+        if tuple(words) not in done:
+            done[tuple(words)] = command(*words, "--json")
+        return done[tuple(words)]
+
+    return run
+
+
+EVERY = pytest.mark.parametrize(
+    "name, words", [(n, w) for n in RESULTS for w in RESULTS[n]],
+    ids=lambda x: x if isinstance(x, str) else "-".join(x[:2]))
+
+
+@EVERY
+def test_stdout_is_valid_json_and_nothing_else(printed, name, words):
+    done = printed(words)
     assert done.status == 0, done.err
     found = json.loads(done.out)
     errors = [f"{list(e.absolute_path)}: {e.message[:200]}"
@@ -105,6 +143,69 @@ def test_stdout_is_valid_json_and_nothing_else(command, name, words):
     assert ("note: without --height" in done.err) == ("sizes.csv" in words)
     notes = [line for line in done.err.splitlines() if not line.endswith("s left")]  # progress
     assert len(notes) == ("sizes.csv" in words)
+
+
+# Keys that need not be there, besides the reasons (..._why).
+OPTIONAL = {
+    "fit": {"own_design", "separation_m", "why", "budget", "budget_linear", "move",
+            "budget_sd_without_first_constant", "materials_exact", "spread", "posterior"},
+    "diagnosis": {"interval", "condition", "value", "doing", "own_design"},
+    "simulate": {"whole_impact_J", "dashpot_force_uN"},
+    "plan": {"parameter", "dataset", "diameter_um"},
+    "predict": set(), "compare": set(), "pair": set(), "coverage": set()}
+OTHER_TYPES = {str: 7, int: "seven", float: "seven", bool: "yes", list: {}, dict: []}
+BY_NAME = {"parameters", "covariance", "correlation", "spread", "exponents", "relative_sd",
+           "two_point_by_dataset", "full_by_dataset", "two_point_failed", "intervals_note",
+           "constants", "why"}
+
+
+def mutations(node, root, name, path=()):
+    """Wrong JSON made of `root` by one change at or below `node`, with its description. Of a list,
+    only the first entry is changed."""
+    where = "/".join(map(str, path))
+    if isinstance(node, list):
+        if node:
+            yield from mutations(node[0], root, name, (*path, 0))
+        return
+    if not isinstance(node, dict):
+        return
+    by_name = path and path[-1] in BY_NAME or path[-2:-1] in (("covariance",), ("correlation",))
+    by_name = by_name or (name == "coverage" and path[-1:] == ("intervals",))
+    for key, value in list(node.items()):
+        kept = dict(node)
+        if value is not None:
+            node[key] = OTHER_TYPES[type(value)]
+            yield root, f"{where}/{key} of another type"
+        else:
+            node[key] = {"neither": "null nor a value"}
+            yield root, f"{where}/{key} neither null nor a value"
+        node[key] = value
+        if not by_name and not key.endswith("_why") and key not in OPTIONAL[name]:
+            del node[key]
+            yield root, f"{where} without {key}"
+            node.clear()
+            node.update(kept)
+        yield from mutations(value, root, name, (*path, key))
+    if not by_name:
+        node["unknown"] = 1
+        yield root, f"{where} with an unknown key"
+        del node["unknown"]
+
+
+@EVERY
+def test_what_lacks_a_key_or_has_another_type_is_not_valid(printed, name, words):
+    found = json.loads(printed(words).out)
+    before = copy.deepcopy(found)
+    check = validator(name)
+    accepted = []
+    count = 0
+    for wrong, change in mutations(found, found, name):
+        count += 1
+        if check.is_valid(wrong):
+            accepted.append(change)
+    assert found == before  # every change was taken back
+    assert count > 50
+    assert not accepted
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -126,22 +227,81 @@ def test_schemas_are_schemas_and_close_every_object(name):
     look(found, name)
 
 
-@pytest.mark.parametrize("name", ["fit", "diagnosis"])
-def test_the_manual_has_every_key_of_the_schema(name):
-    pages = sorted((SOURCE / "docs").glob(f"{name}-json*.md"))
-    page = set(re.findall(r"\w+", " ".join(one.read_text() for one in pages)))
+@pytest.mark.parametrize("name", RESULTS)
+def test_every_key_has_a_meaning_and_every_number_a_unit(name):
+    def numbers(node):
+        types = node.get("type", [])
+        return "number" in ([types] if isinstance(types, str) else types) or any(
+            numbers(node[key]) for key in ("items", "additionalProperties")
+            if isinstance(node.get(key), dict) and "properties" not in node[key])
 
-    def keys(node):
-        if isinstance(node, dict):
-            yield from node.get("properties", {})
-            for inner in node.values():
-                yield from keys(inner)
-        elif isinstance(node, list):
-            for inner in node:
-                yield from keys(inner)
+    def look(node, where):
+        for key, inner in node.get("properties", {}).items():
+            text = inner.get("description", "")
+            assert len(text) > 1, f"{where}.{key}"
+            assert bool(re.search(r" \[[^]]+\]$", text)) == numbers(inner), f"{where}.{key}: {text}"
+            look(inner, f"{where}.{key}")
+        for key in ("items", "additionalProperties"):
+            if isinstance(node.get(key), dict):
+                look(node[key], where)
 
-    missing = sorted(set(keys(schema(name))) - page)
-    assert not missing
+    look(schema(name), name)
+
+
+def documented(name):
+    """The keys in the tables of the manual."""
+    pages = {"fit": ["fit-json", "fit-json-points"], "diagnosis": ["diagnosis-json"]}
+    text = "".join((SOURCE / f"docs/{page}.md").read_text()
+                   for page in pages.get(name, ["other-json"]))
+    if name not in pages:
+        text = text.split(f"## recoil {name}\n")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| `([^`]+)` \| (.*) \|$", text, re.MULTILINE)
+    keys = {key for key, _ in rows}
+    for key, meaning in rows:  # the keys of an object that was listed before
+        like = re.search(r"; keys as in `([^`]+)`$", meaning)
+        if like:
+            start = like[1] + "."
+            keys |= {f"{key}.{k[len(start):]}" for k in keys if k.startswith(start)}
+    return keys
+
+
+@EVERY
+def test_the_manual_has_every_key(printed, name, words):
+    keys = documented(name)
+
+    def look(node, path):
+        if isinstance(node, list):
+            for item in node:
+                if isinstance(item, dict):
+                    look(item, path + "[]")
+        elif isinstance(node, dict):
+            for key, inner in node.items():
+                if key.endswith("_why"):
+                    continue
+                below = f"{path}.{key}" if path else key
+                if any(k == f"{path}.NAME" or k.startswith(f"{path}.NAME.") for k in keys):
+                    below = f"{path}.NAME"
+                elif not any(k.startswith((f"{below}.", f"{below}[")) for k in keys):
+                    assert below in keys
+                look(inner, below)
+
+    look(json.loads(printed(words).out), "")
+
+
+def test_a_point_without_a_stated_error_has_none_in_the_result(printed, place):
+    residuals = json.loads(printed(["fit", "partly.toml"]).out)["residuals"]
+    stated = [row["restitution_sd"] for row in residuals]
+    lines = (place / "partly/points.csv").read_text().splitlines()[1:]
+    assert stated == [float(sd) if sd else None for sd in (line.split(",")[4] for line in lines)]
+    assert stated.count(None) == 1
+    assert residuals[PARTLY - 1]["sd_used"] > 0  # the fit gives it the median of the others
+
+
+def test_without_adhesion_no_capture_velocity_is_counted(printed):
+    rows = json.loads(printed(RESULTS["coverage"][1]).out)["rows"]
+    assert rows and not [row["parameter"] for row in rows if row["parameter"].startswith("V*")]
+    rows = json.loads(printed(RESULTS["coverage"][0]).out)["rows"]
+    assert [row["parameter"] for row in rows][-2:] == ["V*(2 um)", "V*(4 um)"]
 
 
 def test_a_schema_for_every_json_and_no_other():

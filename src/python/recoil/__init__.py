@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from importlib import resources
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
@@ -46,6 +47,7 @@ __all__ = [
     "Prediction",
     "compare",
     "coverage",
+    "describe",
     "fit",
     "load_dataset",
     "model",
@@ -347,7 +349,7 @@ def pair(
 
 def schema(name: str) -> dict[str, Any]:
     """The JSON Schema of a result: ``fit``, ``diagnosis``, ``predict``, ``simulate``,
-    ``coverage``, ``compare`` or ``pair``. Raises ``InputError`` for another name."""
+    ``coverage``, ``compare``, ``pair`` or ``plan``. Raises ``InputError`` for another name."""
     folder = resources.files(__name__) / "schemas"
     file = folder / f"{name}.schema.json"
     if not file.is_file():
@@ -355,6 +357,24 @@ def schema(name: str) -> dict[str, Any]:
         refuse(f"there is no schema {name!r}", f"choose one of {', '.join(known)}")
     found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return found
+
+
+def describe(key: str, result: str = "fit") -> str:
+    """The meaning and the unit of a key of a result: ``describe("goodness.rmse")``,
+    ``describe("parameters.C_H.value")``, ``describe("candidates[0].p_value", "diagnosis")``.
+
+    ``result``: as for ``schema``. Raises ``InputError`` if the result has no such key."""
+    node = schema(result)
+    for name in re.sub(r"\[\d*\]", "", key).split("."):
+        while "items" in node:
+            node = node["items"]
+        inside = node.get("properties", {})
+        found = inside.get(name, node.get("additionalProperties"))
+        if not found:
+            refuse(f"the JSON of {result} has no key {key!r}",
+                   f"choose one of {', '.join(inside)}" if inside else "it ends before")
+        node = {"description": node.get("description", ""), **found}
+    return str(node["description"])
 
 
 def __dir__() -> list[str]:
