@@ -30,6 +30,7 @@ using Strings = std::vector<std::string>;
 inline constexpr std::string_view sha256_schema = R"({"pattern": "^[0-9a-f]{64}$"})";
 inline constexpr std::string_view at_least_one = R"({"minimum": 1})";
 inline constexpr std::string_view rebound_or_captured = R"({"enum": ["rebound", "captured"]})";
+inline constexpr std::string_view largest_or_least = R"({"enum": ["largest", "least"]})";
 inline constexpr std::string_view number_or_auto =
     R"({"anyOf": [{"type": "integer", "minimum": 0}, {"const": "auto"}]})";
 
@@ -66,17 +67,17 @@ struct DatasetReference { RECOIL_RESULT(
     (std::string, provenance_sentence, "the meaning of the provenance"),
     (std::string, sha256, "SHA-256 of datapackage.json and the points", "", sha256_schema)) };
 
-/// One check of the validity of the model.
+/// One check of the validity of the model, at the worst point of a dataset.
 struct ValidityEntry { RECOIL_RESULT(
     (ValidityQuantity, quantity, "what is compared with its limit"),
     (OrNull<double>, value, "value at the worst point", "1"),
     (double, limit, "the largest or the least value at which the model holds", "1"),
     (std::string, limit_is, "whether the limit is the largest or the least valid value", "",
-     R"({"enum": ["largest", "least"]})"),
+     largest_or_least),
     (bool, exceeded, "true: the value is beyond the limit, and the model does not hold there"),
-    (OrAbsent<std::string>, dataset, "dataset of that point"),
-    (OrAbsent<double>, diameter_um, "diameter of that point", "um"),
-    (OrAbsent<double>, incident_velocity, "incident velocity of that point", "m/s"),
+    (std::string, dataset, "dataset of that point"),
+    (double, diameter_um, "diameter of that point", "um"),
+    (double, incident_velocity, "incident velocity of that point", "m/s"),
     (std::string, text, "the check in words")) };
 
 /// A mean of e over a series of one diameter, or over one setting of it.

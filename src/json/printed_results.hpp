@@ -101,6 +101,15 @@ struct SimulationFile {
       (OrNull<double>, largest_pull_N, "largest attraction", "N"),
       (Energy, energy_J, "where the incident energy went")) };
 
+  struct Limit { RECOIL_RESULT(
+      (ValidityQuantity, quantity, "what is compared with its limit"),
+      (OrNull<double>, value, "its value", "1"),
+      (double, limit, "the largest or the least value at which the model holds", "1"),
+      (std::string, limit_is, "whether the limit is the largest or the least valid value", "",
+       largest_or_least),
+      (bool, exceeded, "true: the value is beyond the limit, and the model does not hold"),
+      (std::string, text, "the check in words")) };
+
   using Column = std::vector<OrNull<double>>;
 
   struct History { RECOIL_RESULT(
@@ -129,7 +138,7 @@ struct SimulationFile {
     (OrNull<double>, rebound_velocity, "rebound velocity", "m/s"),
     (OrAbsent<WholeImpact>, whole_impact_J, "with mechanisms: where the kinetic energy went"),
     (Contact, contact, "the impact of the base model, as the mechanisms leave the sphere there"),
-    (std::vector<ValidityEntry>, validity, "limits of validity of the model"),
+    (std::vector<Limit>, validity, "limits of validity of the model"),
     (History, history, "forces against time; positive forces push the sphere away")) };
 
 /// `recoil predict`.

@@ -23,7 +23,7 @@ DatasetEntry dataset_entry(const Dataset& dataset);
 
 DatasetReference dataset_reference(const Dataset& dataset);
 
-/// One check of the limits of the model, without dataset, diameter and velocity.
+/// One check of the limits of the model; its dataset is left empty.
 ValidityEntry validity_entry(const Validity& check);
 
 /// The ends of an interval; nullopt unless both exist and are finite.

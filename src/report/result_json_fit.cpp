@@ -632,6 +632,8 @@ ValidityEntry validity_entry(const Validity& check) {
   out.limit = check.limit;
   out.limit_is = check.limit_is_least() ? "least" : "largest";
   out.exceeded = check.exceeded();
+  out.diameter_um = in_um(check.diameter);
+  out.incident_velocity = check.velocity;
   out.text = validity_sentence(check);
   return out;
 }
@@ -698,8 +700,6 @@ std::string fit_json(const Analysis& a) {
   for (const Validity& check : a.validity) {
     ValidityEntry& entry = out.validity.emplace_back(validity_entry(check));
     entry.dataset = a.datasets[check.dataset].id;
-    entry.diameter_um = in_um(check.diameter);
-    entry.incident_velocity = check.velocity;
   }
   out.bootstrap = bootstrap_of(a);
   if (!a.own_design.empty()) {

@@ -129,7 +129,11 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
     out.parameters.push_back({slot.label(), {slot.initial, std::string(slot.parameter->unit)}});
   }
   if (s.extended) out.whole_impact_J = whole_of(model, s.whole);
-  for (const Validity& one : s.validity) out.validity.push_back(validity_entry(one));
+  for (const Validity& one : s.validity) {
+    const ValidityEntry check = validity_entry(one);
+    out.validity.push_back(
+        {check.quantity, check.value, check.limit, check.limit_is, check.exceeded, check.text});
+  }
   Named<std::vector<double>> columns;
   for (const HistoryColumn& column : history_columns(s)) {
     columns.emplace_back(column.name, column.values);
