@@ -125,9 +125,13 @@ def printed(place):
     return run
 
 
-EVERY = pytest.mark.parametrize(
-    "name, words", [(n, w) for n in RESULTS for w in RESULTS[n]],
-    ids=lambda x: x if isinstance(x, str) else "-".join(x[:2]))
+def words_of(parameter):
+    """The name of a test: the result, the command and its first argument."""
+    return parameter if isinstance(parameter, str) else "-".join(parameter[:2])
+
+
+EVERY = pytest.mark.parametrize("name, words", [(n, w) for n in RESULTS for w in RESULTS[n]],
+                                ids=words_of)
 
 
 @EVERY
@@ -145,18 +149,38 @@ def test_stdout_is_valid_json_and_nothing_else(printed, name, words):
     assert len(notes) == ("sizes.csv" in words)
 
 
-# Keys that need not be there, besides the reasons (..._why).
+# What is made wrong, and the keys (ends of their paths) that need not be there, besides reasons.
+MADE_WRONG = [
+    ("fit", ["fit", "uncertain.toml"]),
+    ("fit", ["fit", "posterior.toml"]),
+    ("diagnosis", ["diagnose", "misfit.toml"]),
+    ("predict", RESULTS["predict"][0]),
+    ("simulate", ["simulate", "mechanism.toml", "--velocity", "5", "--diameter", "4.9"]),
+    ("coverage", RESULTS["coverage"][0]),
+    ("compare", RESULTS["compare"][0]),
+    ("plan", ["plan", "mine.toml"]),
+    ("pair", RESULTS["pair"][0])]
 OPTIONAL = {
-    "fit": {"own_design", "separation_m", "why", "budget", "budget_linear", "move",
-            "budget_sd_without_first_constant", "materials_exact", "spread", "posterior"},
-    "diagnosis": {"interval", "condition", "value", "doing", "own_design"},
-    "simulate": {"whole_impact_J", "dashpot_force_uN"},
-    "plan": {"parameter", "dataset", "diameter_um"},
-    "predict": set(), "compare": set(), "pair": set(), "coverage": set()}
+    "fit": ("/own_design", "/separation_m", "/capture_velocity/0/why", "/budget", "/budget_linear",
+            "/move", "/budget_sd_without_first_constant", "/materials_exact", "/spread",
+            "/capture_velocity/0/intervals/posterior"),
+    "diagnosis": ("/interval", "/condition", "/value", "/doing", "/own_design"),
+    "simulate": ("/whole_impact_J", "/dashpot_force_uN"),
+    "plan": ("/parameter", "/dataset", "/diameter_um")}
 OTHER_TYPES = {str: 7, int: "seven", float: "seven", bool: "yes", list: {}, dict: []}
 BY_NAME = {"parameters", "covariance", "correlation", "spread", "exponents", "relative_sd",
            "two_point_by_dataset", "full_by_dataset", "two_point_failed", "intervals_note",
            "constants", "why"}
+
+
+def shortened(node):
+    """With the first entry of every list of objects."""
+    if isinstance(node, dict):
+        return {key: shortened(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [shortened(item) for item in (node[:1] if node[:1] and isinstance(node[0], dict)
+                                             else node)]
+    return node
 
 
 def mutations(node, root, name, path=()):
@@ -180,7 +204,8 @@ def mutations(node, root, name, path=()):
             node[key] = {"neither": "null nor a value"}
             yield root, f"{where}/{key} neither null nor a value"
         node[key] = value
-        if not by_name and not key.endswith("_why") and key not in OPTIONAL[name]:
+        optional = f"/{where}/{key}".endswith(("_why", *OPTIONAL.get(name, ())))
+        if not by_name and not optional:
             del node[key]
             yield root, f"{where} without {key}"
             node.clear()
@@ -192,9 +217,9 @@ def mutations(node, root, name, path=()):
         del node["unknown"]
 
 
-@EVERY
+@pytest.mark.parametrize("name, words", MADE_WRONG, ids=words_of)
 def test_what_lacks_a_key_or_has_another_type_is_not_valid(printed, name, words):
-    found = json.loads(printed(words).out)
+    found = shortened(json.loads(printed(words).out))
     before = copy.deepcopy(found)
     check = validator(name)
     accepted = []
@@ -204,7 +229,7 @@ def test_what_lacks_a_key_or_has_another_type_is_not_valid(printed, name, words)
         if check.is_valid(wrong):
             accepted.append(change)
     assert found == before  # every change was taken back
-    assert count > 50
+    assert count > 20
     assert not accepted
 
 
@@ -239,7 +264,8 @@ def test_every_key_has_a_meaning_and_every_number_a_unit(name):
         for key, inner in node.get("properties", {}).items():
             text = inner.get("description", "")
             assert len(text) > 1, f"{where}.{key}"
-            assert bool(re.search(r" \[[^]]+\]$", text)) == numbers(inner), f"{where}.{key}: {text}"
+            has_unit = re.search(r" \[[^],]+\]$", text) is not None
+            assert has_unit == numbers(inner), f"{where}.{key}: {text}"
             look(inner, f"{where}.{key}")
         for key in ("items", "additionalProperties"):
             if isinstance(node.get(key), dict):
