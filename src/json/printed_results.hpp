@@ -174,7 +174,7 @@ struct PredictionFile {
       (Miss, miss, "deviation of the points")) };
 
   struct SizeCurve { RECOIL_RESULT(
-      (NamedSize, name, "which size"),
+      (std::string, name, "which size", "", R"({"enum": ["smallest", "d10", "largest"]})"),
       (double, diameter_um, "diameter", "um"),
       (OrNull<double>, capture_velocity, "capture velocity", "m/s"),
       (std::vector<OrNull<double>>, restitution, "e at the velocities of `curve`", "1")) };
@@ -333,7 +333,8 @@ struct PlanFile {
       (double, share, "share of the impacts", "1")) };
 
   struct Quantity { RECOIL_RESULT(
-      (PlannedKind, kind, "kind of the quantity"),
+      (std::string, kind, "kind of the quantity", "",
+       R"({"enum": ["parameter", "capture_velocity"]})"),
       (OrAbsent<std::string>, parameter, "name of a parameter"),
       (OrAbsent<std::string>, dataset, "dataset of a capture velocity"),
       (OrAbsent<double>, diameter_um, "diameter of a capture velocity", "um"),

@@ -213,7 +213,7 @@ std::optional<double> whole_number(const std::optional<double>& value) {
 }
 
 PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
-  PlanFile::Quantity out = {.kind = quantity.kind,
+  PlanFile::Quantity out = {.kind = quantity.is_parameter() ? "parameter" : "capture_velocity",
                             .value = quantity.value,
                             .unit = quantity.unit,
                             .relative_error = quantity.error,
@@ -221,7 +221,7 @@ PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity
                             .impacts = whole_number(quantity.impacts),
                             .impacts_even = whole_number(quantity.plain_impacts),
                             .impacts_alone = whole_number(quantity.alone_impacts)};
-  if (quantity.kind == PlannedKind::parameter) {
+  if (quantity.is_parameter()) {
     out.parameter = quantity.label;
   } else {
     out.dataset = plan.datasets[quantity.dataset].id;

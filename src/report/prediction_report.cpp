@@ -266,34 +266,33 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
   const auto miss_of = [](const CurveMiss& miss) {
     return PredictionFile::Miss{miss.rmse, miss.points};
   };
-  const auto convention = [&](CaptureConvention one) {
-    return PredictionFile::Convention{words_of(one),
-                                      miss_of(mixture.miss[static_cast<std::size_t>(one)])};
+  const auto convention = [&](std::size_t c) {
+    return PredictionFile::Convention{std::string(capture_conventions[c].words),
+                                      miss_of(mixture.miss[c])};
   };
-  PredictionFile out = {
-      .recoil = version(),
-      .fit = analysis.spec.id,
-      .dataset = dataset_reference(analysis.datasets[mixture.dataset]),
-      .sizes = {.file = mixture.sizes.file.string(),
-                .provenance = mixture.sizes.provenance,
-                .description = mixture.sizes.description,
-                .sha256 = mixture.sizes.sha256,
-                .d10_um = mixture.sizes.mean_diameter() / units::um,
-                .simulated = mixture.simulated},
-      .probe_height_m = mixture.probe_height,
-      .slowest_seen_m_s = mixture.slowest_seen,
-      .level = mixture.level,
-      .replicates = mixture.replicates,
-      .seed = analysis.uncertainty.bootstrap.seed,
-      .conventions = {.captured_as_zero = convention(CaptureConvention::captured_as_zero),
-                      .captured_left_out = convention(CaptureConvention::captured_left_out),
-                      .unseen_left_out = convention(CaptureConvention::unseen_left_out)},
-      .d10_alone = {miss_of(mixture.miss_single)}};
+  PredictionFile out = {.recoil = version(),
+                        .fit = analysis.spec.id,
+                        .dataset = dataset_reference(analysis.datasets[mixture.dataset]),
+                        .sizes = {.file = mixture.sizes.file.string(),
+                                  .provenance = mixture.sizes.provenance,
+                                  .description = mixture.sizes.description,
+                                  .sha256 = mixture.sizes.sha256,
+                                  .d10_um = mixture.sizes.mean_diameter() / units::um,
+                                  .simulated = mixture.simulated},
+                        .probe_height_m = mixture.probe_height,
+                        .slowest_seen_m_s = mixture.slowest_seen,
+                        .level = mixture.level,
+                        .replicates = mixture.replicates,
+                        .seed = analysis.uncertainty.bootstrap.seed,
+                        .conventions = {.captured_as_zero = convention(0),
+                                        .captured_left_out = convention(1),
+                                        .unseen_left_out = convention(2)},
+                        .d10_alone = {miss_of(mixture.miss_single)}};
   for (const SizeBin& bin : mixture.sizes.bins) {
     out.sizes.bins.push_back({bin.diameter / units::um, bin.width / units::um, bin.weight});
   }
   for (const SizeCurve& size : mixture.size_curves) {
-    out.size_curves.push_back({.name = size.size,
+    out.size_curves.push_back({.name = std::string(size.name),
                                .diameter_um = size.diameter / units::um,
                                .capture_velocity = size.capture_velocity,
                                .restitution = {size.restitution.begin(), size.restitution.end()}});

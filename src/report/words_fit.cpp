@@ -10,6 +10,7 @@
 
 #include "data/text.hpp"
 #include "estimate/input_errors.hpp"
+#include "estimate/reweighting.hpp"
 #include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
