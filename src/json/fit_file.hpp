@@ -192,7 +192,8 @@ struct FitFile {
 
   /// One source of a standard error.
   struct BudgetRow { RECOIL_RESULT(
-      (std::string, source, "scatter, spread, numerics, an error of the data (`velocity`, ...), or a constant"),
+      (std::string, source, "scatter, spread, numerics, an error of the data (`velocity`, ...), or "
+       "a constant"),
       (OrNull<double>, sd, "standard error from this source alone", "its unit"),
       (OrNull<double>, share, "share of the variance", "1"),
       (OrAbsent<Ends>, move, "change if this constant is one sd lower and one sd higher",
