@@ -51,6 +51,11 @@ Deviations deviations_of(const Diagnosis& d, std::size_t dataset) {
   return all;
 }
 
+/// Did the dataset measure an e or a capture? Counts alone have no deviation to draw.
+bool has_deviations(const Diagnosis& d, std::size_t dataset) {
+  return !deviations_of(d, dataset).velocities.empty();
+}
+
 /// The range of the values for a logarithmic axis. The margin is a power of the ratio of largest
 /// and smallest value, which counts as at least 1.5.
 plot::Range log_range(const std::vector<double>& values, double margin) {
@@ -218,14 +223,18 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
 
 std::vector<Figure> misfit_figures(const Diagnosis& d) {
   std::vector<Figure> figures;
-  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(misfit_figure(d, k));
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) {
+    if (has_deviations(d, k)) figures.push_back(misfit_figure(d, k));
+  }
   return figures;
 }
 
 std::vector<Figure> before_after_figures(const Diagnosis& d) {
   std::vector<Figure> figures;
   if (!d.extended() || !d.extended()->fit) return figures;
-  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(before_after_figure(d, k));
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) {
+    if (has_deviations(d, k)) figures.push_back(before_after_figure(d, k));
+  }
   return figures;
 }
 

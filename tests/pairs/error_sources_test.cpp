@@ -185,8 +185,8 @@ TEST_P(ErrorSources, SimulatedSetsScatterAsTheyState) {
   const DiagnosisOptions options;
   const SearchBase base = search_base(spec_, data_, fitted_, options);
   expect_covariance(
-      [&](std::uint64_t index) { return vector_of(simulate_base(base, index).points); }, stated,
-      "diagnosis");
+      [&](std::uint64_t index) { return vector_of(simulate_base(base, index).data.points); },
+      stated, "diagnosis");
 }
 
 std::vector<Sources> alone_and_in_pairs() {

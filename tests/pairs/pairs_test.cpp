@@ -14,7 +14,7 @@
 #include "covering_array.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
+#include "estimate/shared_errors.hpp"
 #include "estimate/two_point.hpp"
 #include "made_points.hpp"
 #include "report/fit_report.hpp"
@@ -245,12 +245,11 @@ class WhiteScatter {
     const auto& points = fitted.data.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       // Near capture the residual of a simulated point is not normal.
-      const bool plain =
-          !points[i].censored && !(points[i].weights.scatter > 0.0) && fitted.prediction[i] > 0.5;
+      const bool plain = !points[i].censored && !(fitted.weights.points[i].scatter > 0.0) &&
+                         fitted.prediction[i] > 0.5;
       if (plain) used_.push_back(i);
     }
-    const Observations subset = fitted.data.subset(used_);
-    sources_.emplace(subset.points);
+    sources_.emplace(fitted.data.subset(used_), fitted.weights.subset(used_));
     sums_.assign(used_.size(), 0.0);
     squares_.assign(used_.size(), 0.0);
   }
@@ -264,7 +263,7 @@ class WhiteScatter {
     for (const std::size_t i : used_) {
       Observation point = fitted_.data.points[i];
       point.restitution = restitution(i);
-      residuals.push_back(weighted_residual(point, squares[i]).value);
+      residuals.push_back(weighted_residual(point, fitted_.weights.points[i], squares[i]).value);
     }
     sources_->whiten(residuals);
     for (std::size_t k = 0; k < residuals.size(); ++k) {
@@ -292,7 +291,7 @@ class WhiteScatter {
  private:
   const FitResult& fitted_;
   std::vector<std::size_t> used_;
-  std::optional<SharedSettings> sources_;
+  std::optional<SharedErrors> sources_;
   std::vector<double> sums_, squares_;
   double count_ = 0.0;
 };
