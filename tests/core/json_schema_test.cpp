@@ -9,30 +9,23 @@
 namespace recoil {
 namespace {
 
-enum class Colour { red, green };
+enum class Shade { red, green };
 
-}  // namespace
+constexpr auto names_of_values(Shade) { return name_list("red", "green"); }
 
-template <>
-struct NamesOf<Colour> {
-  static constexpr std::array<std::string_view, 2> names = {"red", "green"};
-};
-
-namespace {
-
-struct Ball {
-  RECOIL_RESULT((double, mass, "mass", "kg"), (OrNull<Colour>, colour, "colour of the ball"))
+struct Marble {
+  RECOIL_RESULT((double, mass, "mass", "kg"), (OrNull<Shade>, colour, "colour of the ball"))
 };
 
 using Ends = std::array<double, 2>;
 
-struct Box {
+struct Bag {
   RECOIL_RESULT((FormatVersion, format_version, "version"),
                 (std::string, unit, "unit of the height", "", R"({"const": "m"})"),
                 (std::uint64_t, seed, "seed"), (long, change, "change", "", R"({"minimum": null})"),
-                (std::vector<Ball>, balls, "the balls"), (Named<bool>, open, "by name"),
+                (std::vector<Marble>, balls, "the balls"), (Named<bool>, open, "by name"),
                 (OrAbsent<OrNull<Ends>>, range, "range", "1"),
-                (OrReason<double>, height, "height", "its unit"), (OrNull<Ball>, lid, "the lid"))
+                (OrReason<double>, height, "height", "its unit"), (OrNull<Marble>, lid, "the lid"))
 };
 
 TEST(JsonSchema, FollowsFromTheMembers) {
@@ -65,24 +58,23 @@ TEST(JsonSchema, FollowsFromTheMembers) {
   lid["type"] = {"object", "null"};
   lid["description"] = "the lid";
   expected["properties"]["lid"] = lid;
-  EXPECT_EQ(schema_of<Box>().dump(1), expected.dump(1));
+  EXPECT_EQ(schema_of<Bag>().dump(1), expected.dump(1));
 }
 
 TEST(JsonSchema, MembersAreWrittenAndRead) {
-  Box box;
+  Bag box;
   box.unit = "m";
-  box.balls = {{.mass = 2.5, .colour = Colour::green}};
+  box.balls = {{.mass = 2.5, .colour = Shade::green}};
   box.height = {std::nullopt, "it was not measured"};
-  const std::string text =
-      R"({"format_version":2,"unit":"m","seed":0,"change":0,)"
-      R"("balls":[{"mass":2.5,"colour":"green"}],"open":{},"height":null,)"
-      R"("height_why":"it was not measured","lid":null})";
+  const std::string text = R"({"format_version":2,"unit":"m","seed":0,"change":0,)"
+                           R"("balls":[{"mass":2.5,"colour":"green"}],"open":{},"height":null,)"
+                           R"("height_why":"it was not measured","lid":null})";
   EXPECT_EQ(as_json(box).dump(), text);
-  EXPECT_EQ(as_json(value_from<Box>(Json::parse(text))).dump(), text);
+  EXPECT_EQ(as_json(value_from<Bag>(Json::parse(text))).dump(), text);
 }
 
 TEST(JsonSchema, AnotherFormatVersionIsAMismatch) {
-  EXPECT_THROW(value_from<Box>(Json::parse(R"({"format_version": 1})")), JsonMismatch);
+  EXPECT_THROW(value_from<Bag>(Json::parse(R"({"format_version": 1})")), JsonMismatch);
 }
 
 }  // namespace
