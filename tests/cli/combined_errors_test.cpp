@@ -8,20 +8,20 @@
 
 namespace {
 
-using nlohmann::json;
+using Result = nlohmann::json;
 using support::Workplace;
 
 class CombinedErrors : public testing::Test, public Workplace {
  public:
   /// fit.json of `points` of polystyrene on silicon.
-  json fitted(const std::string& points, const std::string& replicates) {
+  Result fitted(const std::string& points, const std::string& replicates) {
     write("points.csv", points);
     EXPECT_EQ(run({"init", "here", "--points", "points.csv", "--particle", "polystyrene",
                    "--surface", "silicon", "--diameter", "4.9", "--provenance", "measured"})
                   .status,
               0);
     EXPECT_EQ(run({"fit", "here/fit.toml", "--replicates", replicates, "--out", "out"}).status, 0);
-    return json::parse(read("out/fit.json"));
+    return Result::parse(read("out/fit.json"));
   }
 };
 
@@ -30,12 +30,12 @@ class CombinedErrors : public testing::Test, public Workplace {
 // 1.03) / 12.7 = 0.183 from the spread, 400 degrees of freedom: 1.03 times or over exp(1.97 x
 // 0.183).
 TEST_F(CombinedErrors, OfASpreadFromTwoCapturesAndOfMaterials) {
-  const json fit = fitted(
+  const Result fit = fitted(
       "incident_velocity,restitution,restitution_sd,captured\n"
       "0.7,0,0.01,1\n1.0,0,0.01,1\n1.6,0.522,0.01,0\n2.4,0.725,0.01,0\n4.0,0.829,0.01,0\n"
       "7.0,0.866,0.01,0\n12,0.868,0.01,0\n20,0.852,0.01,0\n",
       "0");
-  const json& capture = fit.at("/derived/capture_velocity/0"_json_pointer);
+  const Result& capture = fit.at("/derived/capture_velocity/0"_json_pointer);
   EXPECT_NEAR(capture.at("value").get<double>(), 1.03, 0.005);
   EXPECT_NEAR(capture.at("interval").at(0).get<double>(), 0.72, 0.01);
   EXPECT_NEAR(capture.at("interval").at(1).get<double>(), 1.48, 0.01);
@@ -43,7 +43,7 @@ TEST_F(CombinedErrors, OfASpreadFromTwoCapturesAndOfMaterials) {
 
 // The error that settings share is estimated from three of them, one degree of freedom.
 TEST_F(CombinedErrors, OfThreeSettingsAndOfMaterials) {
-  const json fit = fitted(
+  const Result fit = fitted(
       "incident_velocity,restitution,restitution_sd,setting\n"
       "1.8,0.8372,0.005,s0\n1.8,0.8425,0.005,s0\n1.8,0.8413,0.005,s0\n1.8,0.8447,0.005,s0\n"
       "1.8,0.8335,0.005,s0\n1.8,0.8385,0.005,s0\n4,0.8841,0.005,s1\n4,0.8853,0.005,s1\n"
@@ -51,7 +51,7 @@ TEST_F(CombinedErrors, OfThreeSettingsAndOfMaterials) {
       "13,0.8795,0.005,s2\n13,0.9015,0.005,s2\n13,0.8936,0.005,s2\n13,0.8918,0.005,s2\n"
       "13,0.8969,0.005,s2\n13,0.8967,0.005,s2\n",
       "0");
-  const json& capture = fit.at("/derived/capture_velocity/0"_json_pointer);
+  const Result& capture = fit.at("/derived/capture_velocity/0"_json_pointer);
   EXPECT_NEAR(capture.at("interval").at(0).get<double>(), 0.56, 0.01);
   EXPECT_NEAR(capture.at("interval").at(1).get<double>(), 0.92, 0.01);
   EXPECT_NEAR(fit.at("/parameters/C_A/intervals/wald/1"_json_pointer).get<double>(), 0.073, 0.001);
@@ -79,9 +79,10 @@ TEST_F(CombinedErrors, OfInstantsAndOfTheSizeOfASeries) {
   write("ball/fit.toml",
         "dataset = \".\"\n[uncertainty]\nmaterials = false\nreplicates = 999\nseed = 1\n");
   ASSERT_EQ(run({"fit", "ball/fit.toml", "--out", "out"}).status, 0);
-  for (const auto& [name, parameter] : json::parse(read("out/fit.json")).at("parameters").items()) {
+  for (const auto& [name, parameter] :
+       Result::parse(read("out/fit.json")).at("parameters").items()) {
     if (!parameter.at("free").get<bool>()) continue;
-    const json& intervals = parameter.at("intervals");
+    const Result& intervals = parameter.at("intervals");
     const auto width = [&](const char* kind) {
       return intervals.at(kind).at(1).get<double>() - intervals.at(kind).at(0).get<double>();
     };
