@@ -35,7 +35,6 @@ struct BandedValue {
 /// The value of the fit with the percentiles of the replicates; NaN: no value.
 BandedValue banded(double value, std::vector<double> replicates, double level);
 
-
 /// e(V) of one size, for the paper's Fig. 10.
 struct SizeCurve {
   std::string_view name;            ///< "smallest", "d10" (the mean diameter) or "largest"
