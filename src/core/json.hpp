@@ -205,7 +205,9 @@ void read_field(const Json& object, const std::string& key, Member& member) {
   read_within([&] { return key; },
               [&] {
                 if constexpr (is_a<Member, OrAbsent>) {
-                  read_json(*found, member.emplace());
+                  typename Member::value_type read{};
+                  read_json(*found, read);
+                  member.emplace(std::move(read));
                 } else if constexpr (is_a<Member, OrReason>) {
                   read_json(*found, member.value);
                   if (found->is_null()) read_field(object, key + "_why", member.why);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +49,10 @@ std::string listed(const std::vector<std::string>& words);
 
 /// "1 point", "7 points". @param many if it is not `one` and an s
 std::string counted(long long count, std::string_view one, std::string_view many = "");
+template <std::integral Count>
+std::string counted(Count count, std::string_view one, std::string_view many = "") {
+  return counted(static_cast<long long>(count), one, many);
+}
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);

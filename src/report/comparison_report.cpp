@@ -308,7 +308,7 @@ ComparisonFile::Fit fit_of(const ComparedFit& fit, std::optional<double> best) {
           .points = fit.points,
           .chi2 = fit.chi2,
           .aicc = aicc,
-          .aicc_above_best = aicc && best ? OrNull(*aicc - *best) : std::nullopt,
+          .aicc_above_best = aicc && best ? OrNull<double>(*aicc - *best) : std::nullopt,
           .rmse = fit.rmse,
           .held_out_rmse = fit.held_out_rmse};
 }

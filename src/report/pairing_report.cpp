@@ -260,7 +260,9 @@ std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
     return static_cast<std::size_t>(
         std::count_if(pairs.impacts.begin(), pairs.impacts.end(), condition));
   };
-  const auto if_known = [](double value) { return value > 0.0 ? OrNull(value) : std::nullopt; };
+  const auto if_known = [](double value) {
+    return value > 0.0 ? OrNull<double>(value) : std::nullopt;
+  };
   PairingFile out;
   out.recoil_version = version();
   out.passages = {.file = table.file,
@@ -272,7 +274,7 @@ std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
                   .columns_not_used = table.ignored,
                   .provenance = table.provenance};
   out.plane = {.height_m = pairs.height,
-               .height_sd_m = pairs.refined ? OrNull(pairs.height_sd) : std::nullopt,
+               .height_sd_m = pairs.refined ? OrNull<double>(pairs.height_sd) : std::nullopt,
                .refined = pairs.refined};
   out.impacts = {.down = pairs.down,
                  .up = pairs.up,
@@ -294,7 +296,7 @@ std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
          .diameter_um = point.diameter / units::um,
          .incident_velocity = point.velocity,
          .velocity_sd = if_known(point.velocity_sd),
-         .restitution = point.rebounds > 0 ? OrNull(point.restitution) : std::nullopt,
+         .restitution = point.rebounds > 0 ? OrNull<double>(point.restitution) : std::nullopt,
          .restitution_sd = if_known(point.restitution_sd),
          .rebounds = point.rebounds,
          .unpaired = point.unpaired,

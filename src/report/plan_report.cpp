@@ -260,14 +260,15 @@ std::string json_plan(const ExperimentPlan& plan) {
         {slot.label(), {plan.theta[j], std::string(slot.parameter->unit), slot.free}});
   }
   for (const PlannedSetting& setting : plan.settings) {
-    out.settings.push_back({.dataset = plan.datasets[setting.dataset].id,
-                            .diameter_um = setting.diameter / units::um,
-                            .incident_velocity = setting.velocity,
-                            .points = setting.points,
-                            .impacts = setting.points * options.events,
-                            .restitution = setting.restitution,
-                            .restitution_sd = setting.sd > 0.0 ? OrNull(setting.sd) : std::nullopt,
-                            .captured = setting.captured});
+    out.settings.push_back(
+        {.dataset = plan.datasets[setting.dataset].id,
+         .diameter_um = setting.diameter / units::um,
+         .incident_velocity = setting.velocity,
+         .points = setting.points,
+         .impacts = setting.points * options.events,
+         .restitution = setting.restitution,
+         .restitution_sd = setting.sd > 0.0 ? OrNull<double>(setting.sd) : std::nullopt,
+         .captured = setting.captured});
   }
   for (const PlannedQuantity& quantity : plan.quantities) {
     out.quantities.push_back(quantity_of(plan, quantity));

@@ -79,7 +79,9 @@ SimulationFile::Energy energy_of(const SimulatedImpact& s) {
 
 SimulationFile::Contact contact_of(const SimulatedImpact& s) {
   const bool captured = s.impact.outcome == ImpactOutcome::captured;
-  const auto if_elastic = [&](double value) { return s.yields ? std::nullopt : OrNull(value); };
+  const auto if_elastic = [&](double value) {
+    return s.yields ? std::nullopt : OrNull<double>(value);
+  };
   return {.incident_velocity = s.conditions.velocity,
           .diameter_um = s.diameter / units::um,
           .restitution = captured ? 0.0 : std::sqrt(std::max(s.impact.restitution_squared, 0.0)),
