@@ -279,10 +279,11 @@ Sentences mechanism_warnings(const ImpactModel& model) {
 Sentences start_warnings(const FitResult& fitted) {
   Sentences warnings;
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
-    std::vector<double> ends = {fitted.best_start().end[j]};
+    std::vector<double> ends;
     for (const StartSummary& start : fitted.starts) {
       const auto& differing = start.differing;
-      if (std::find(differing.begin(), differing.end(), j) != differing.end()) {
+      if (start.outcome == StartOutcome::best ||
+          std::find(differing.begin(), differing.end(), j) != differing.end()) {
         ends.push_back(start.end[j]);
       }
     }

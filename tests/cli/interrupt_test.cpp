@@ -67,7 +67,7 @@ TEST(Interrupt, KeepsFinishedReplicatesAndEndsAsTheSignalWould) {
 
 TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
   const Workplace place;
-  const std::vector<std::string> command = {"fit",       "fit.toml", "--replicates", "1999",
+  const std::vector<std::string> command = {"fit",       "fit.toml", "--replicates", "9999",
                                             "--threads", "1",        "--out"};
   std::vector<std::string> whole = command;
   whole.push_back("whole");
