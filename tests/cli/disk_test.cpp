@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <thread>
 
 #include "support/small_disk.hpp"
 #include "support/started.hpp"
@@ -137,12 +139,19 @@ TEST(DiskAtWork, OneThatGoesIsToldAndWhatIsOnItIsWhole) {
   const Words command = {"fit",       "fit.toml", "--replicates", "200000",
                          "--threads", "2",        "--out",        target};
   const fs::path kept = disk / target / "unfinished-fit.json.jsonl";
-  Started run(command, disk.path());
-  ASSERT_TRUE(run.wait_until([&] { return fs::exists(kept); }));
+  // Sooner and later, until it is well at work: on a slow machine it may still be reading.
+  const auto stopped_after = [&](int milliseconds, const std::function<void()>& meanwhile) {
+    Started run(command, disk.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    meanwhile();
+    run.send(SIGTERM);
+    return run.end();
+  };
+  int delay = 200;
+  for (; delay < 20000 && !fs::exists(kept); delay *= 2) stopped_after(delay, [] {});
+  ASSERT_TRUE(fs::exists(kept));
   const std::string before = support::text_of(kept);
-  disk.go_away();
-  run.send(SIGTERM);
-  const Outcome told = run.end();
+  const Outcome told = stopped_after(delay, [&] { disk.go_away(); });
   EXPECT_EQ(told.status, 2);
   EXPECT_EQ(std::count(told.err.begin(), told.err.end(), '\n'), 1) << told.err;
   EXPECT_NE(told.err.find(

