@@ -63,7 +63,7 @@ TrueErrors draw_errors(const FitResult& fitted, RandomStream& random) {
     for (std::size_t i = 0; i < errors.spheres.size(); ++i) {
       const Observation& point = fitted.data.points[i];
       std::vector<ErrorPart> parts = source->parts(point);
-      if (source->shared == SharedBy::nobody) parts = {{i}};
+      if (source->shared == SharedBy::none) parts = {{i}};
       double z = 0.0;
       for (const ErrorPart& part : parts) {
         const auto [place, is_new] = drawn.try_emplace(part.draw, 0.0);

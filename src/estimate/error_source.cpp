@@ -15,7 +15,7 @@ std::vector<ErrorPart> ErrorSource::parts(const Observation& point) const {
     case SharedBy::series:
       return {{point.batch}};
     case SharedBy::launch:
-    case SharedBy::nobody:
+    case SharedBy::none:
       break;
   }
   return {};

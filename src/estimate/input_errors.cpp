@@ -49,7 +49,7 @@ class ErrorOfInput : public ErrorSource {
 
 const ErrorSource& velocity_error() {
   static const ErrorOfInput source({"velocity", "velocity_sd", "errors of the velocities"},
-                                   SharedBy::nobody, &Observation::velocity_sd,
+                                   SharedBy::none, &Observation::velocity_sd,
                                    &Observation::velocity, &InputShift::velocity);
   return source;
 }
@@ -64,7 +64,7 @@ const ErrorSource& setting_velocity_error() {
 
 const ErrorSource& diameter_error() {
   static const ErrorOfInput source({"diameter", "diameter_sd", "errors of the diameters"},
-                                   SharedBy::nobody, &Observation::diameter_sd,
+                                   SharedBy::none, &Observation::diameter_sd,
                                    &Observation::diameter, &InputShift::diameter);
   return source;
 }

@@ -190,7 +190,7 @@ bool Observations::share(SharedBy way) const {
 
 bool Observations::share_errors() const {
   return std::any_of(sources.begin(), sources.end(),
-                     [](const ErrorSource* source) { return source->shared != SharedBy::nobody; });
+                     [](const ErrorSource* source) { return source->shared != SharedBy::none; });
 }
 
 bool Observations::weights_depend_on_fit() const {
@@ -269,7 +269,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
     if (source->acts(data)) data.sources.push_back(source);
   }
   for (const ErrorSource* source : data.sources) {
-    if (spec.student && source->shared != SharedBy::nobody) {
+    if (spec.student && source->shared != SharedBy::none) {
       throw InputError({},
                        fmt::format("residuals = \"student\" beside {}", source->names.stated_by),
                        "errors that points share are normal", "leave out one of them");

@@ -59,7 +59,7 @@ SharedErrors::SharedErrors(const Observations& data, const Weights& weights) {
   const std::vector<std::vector<double>> loads = loads_of_sources(data, weights);
   for (std::size_t k = 0; k < data.sources.size(); ++k) {
     const ErrorSource& source = *data.sources[k];
-    if (source.shared == SharedBy::nobody || (!source.is_scatter() && loads[k].empty())) continue;
+    if (source.shared == SharedBy::none || (!source.is_scatter() && loads[k].empty())) continue;
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const double load = source.is_scatter() ? 1.0 : loads[k][i];
       if (load == 0.0) continue;
@@ -164,7 +164,7 @@ std::vector<double> draw_shared_errors(const Observations& data, const Weights& 
   std::vector<double> errors(data.points.size(), 0.0);
   for (std::size_t k = 0; k < data.sources.size(); ++k) {
     const ErrorSource& source = *data.sources[k];
-    if (source.shared == SharedBy::nobody) continue;
+    if (source.shared == SharedBy::none) continue;
     std::map<std::size_t, double> drawn;  // in standard deviations
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const double of_e = source.is_scatter() ? noise_scale * weights.points[i].sd

@@ -159,7 +159,7 @@ class Renewal {
       const Local at = local(m, error_step(relative));
       const double effect = source.effect(point, at, weights_.noise);
       weights_.effects[k][i] = effect;
-      if (source.shared != SharedBy::nobody) continue;
+      if (source.shared != SharedBy::none) continue;
       variance += effect * effect;
       own.input_bias += 0.5 * at.bend * relative * relative;
     }

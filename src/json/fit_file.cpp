@@ -126,6 +126,15 @@ std::vector<FittedValue> take_fitted_values(ImpactModel& model,
     }
     const auto found = fitted.find(slot.label());
     if (found == fitted.end()) {
+      const auto without_value =
+          std::find_if(fit.parameters.begin(), fit.parameters.end(),
+                       [&](const auto& parameter) { return parameter.first == slot.label(); });
+      if (without_value != fit.parameters.end()) {
+        throw InputError({path},
+                         fmt::format("the parameter {} has no value: {}", slot.label(),
+                                     without_value->second.value.why),
+                         "", "fix it in the fit file, and run recoil fit again");
+      }
       throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
                        "this is the result of another fit", "use the fit.json of this fit file");
     }

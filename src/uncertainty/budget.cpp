@@ -137,7 +137,7 @@ class BudgetMaker {
       numerics += std::pow(b[i] * slope * solver_error / scale_, 2);
       double rest = own_noise_scale(data, i, b[i] * b[i]);
       for (std::size_t k = 0; k < of_source.size() && rest > 0.0; ++k) {
-        if (data.sources[k]->shared != SharedBy::nobody) continue;
+        if (data.sources[k]->shared != SharedBy::none) continue;
         const double share = std::pow(fitted_.weights.effects[k][i] * slope, 2);
         const double square = std::min(rest, b[i] * b[i] * share);
         of_source[k] += square;

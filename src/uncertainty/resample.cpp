@@ -123,7 +123,7 @@ std::optional<std::string> scheme_obstacle(Scheme scheme, const Observations& da
     return "no point rebounded: there are no residuals to draw from";
   }
   for (const ErrorSource* source : data.sources) {
-    if (source->shared == SharedBy::nobody || !(by_residuals || scheme == Scheme::cases)) continue;
+    if (source->shared == SharedBy::none || !(by_residuals || scheme == Scheme::cases)) continue;
     // Signs of the wild bootstrap are drawn by setting.
     if (source->shared == SharedBy::setting && scheme == Scheme::wild) continue;
     return fmt::format(

@@ -124,7 +124,7 @@ TEST(SharedSettings, SizesOfSeriesAndSettingsAddUpInTheCovariance) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].setting = setting[i];
     points[i].batch = series[i];
-    points[i].series_diameter_sd = of_size[i];  // who states none has none
+    points[i].series_diameter_sd = of_size[i];  // 0: the point has no such error
     made.weights.effects[0][i] = of_setting[i];
     made.weights.effects[1][i] = of_size[i];
   }

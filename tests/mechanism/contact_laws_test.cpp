@@ -368,7 +368,7 @@ TEST(Dashpots, ThatStopASphereAreAnsweredAtOnce) {
   for (const double kappa : {12.01, 100.0, 1e4, 1e5}) {
     const one_point::Answer answer = at(kappa);
     EXPECT_TRUE(answer.usable) << kappa;
-    EXPECT_EQ(answer.handed_over, 0) << kappa << ": nobody waits for the reference solver";
+    EXPECT_EQ(answer.handed_over, 0) << kappa << ": the fast solver answers alone";
     EXPECT_LT(answer.square, at(0.99 * kappa).square) << kappa;
     EXPECT_LT(answer.slopes.back(), 0.0) << kappa;
   }

@@ -135,15 +135,20 @@ TEST_F(Pairs, EndWithAnAnswerOrAReason) {
   EXPECT_GE(answered().size(), table().size() * 9 / 10);
 }
 
-/// The curve of a two-point calibration that converged goes through its two points.
-void expect_on_curve(const ImpactModel& model, const Observations& data,
-                     const TwoPointResult& two) {
-  for (const std::size_t i : {two.low_point, two.high_point}) {
+/// The curve of a two-point calibration goes through its two points; through the slow one alone if
+/// adhesion loses more energy at the fast one than was measured.
+/// @return false if the calibration has no curve
+bool lies_on_curve(const ImpactModel& model, const Observations& data, const TwoPointResult& two) {
+  std::vector<std::size_t> met = {two.low_point};
+  if (two.status == TwoPointStatus::converged) met.push_back(two.high_point);
+  if (met.size() == 1 && two.status != TwoPointStatus::no_hertz_damping) return false;
+  for (const std::size_t i : met) {
     const Observation& point = data.points[i];
     const Prediction at = predict(model, two.theta, {point.conditions()}, false).front();
-    ASSERT_TRUE(at.usable());
+    EXPECT_TRUE(at.usable());
     EXPECT_NEAR(at.restitution(), point.restitution, 1e-5) << "at " << point.velocity << " m/s";
   }
+  return true;
 }
 
 TEST_F(Pairs, TwoPointsLieOnTheirCurve) {
@@ -151,10 +156,8 @@ TEST_F(Pairs, TwoPointsLieOnTheirCurve) {
   for (const Made* made : answered()) {
     SCOPED_TRACE(pairs::words_of(made->choice));
     for (const TwoPointComparison& comparison : made->analysis->uncertainty.two_point) {
-      if (comparison.result.status != TwoPointStatus::converged) continue;
       const FitResult& fitted = made->analysis->fitted;
-      expect_on_curve(fitted.model, fitted.data, comparison.result);
-      ++compared;
+      if (lies_on_curve(fitted.model, fitted.data, comparison.result)) ++compared;
     }
   }
   EXPECT_GE(compared, 15);
@@ -162,8 +165,7 @@ TEST_F(Pairs, TwoPointsLieOnTheirCurve) {
 
 // A whole fit with these laws takes minutes.
 TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
-  GTEST_SKIP()
-      << "open: where the calibration ends without Hertz damping it meets the slow point only";
+  int compared = 0;
   for (const char* law : {"dmt", "maugis"}) {
     for (const char* mechanism : {"none", "gas_film", "plastic_yield", "velocity_offset"}) {
       for (const char* sizes : {"one", "several", "mixed", "two spheres"}) {
@@ -181,12 +183,13 @@ TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
         const Observations data = gather(inputs.datasets, inputs.spec);
         const TwoPointResult two = two_point(model, data, 0, model.contacts[0].reference_diameter);
         // The calibration is of the model without mechanisms, which may not reach the points.
-        if (choice["mechanism"] != "none" && two.status != TwoPointStatus::converged) continue;
-        ASSERT_EQ(two.status, TwoPointStatus::converged);
-        expect_on_curve(model, data, two);
+        const bool met = lies_on_curve(model, data, two);
+        EXPECT_TRUE(met || choice["mechanism"] != "none");
+        if (met) ++compared;
       }
     }
   }
+  EXPECT_GE(compared, 15);
 }
 
 /// Does an interval end within the bounds of its parameter?
@@ -329,16 +332,10 @@ TEST_F(Pairs, TheBootstrapDrawsTheScatterThatTheFitStates) {
 }
 
 TEST_F(Pairs, CoverageSimulatesTheScatterThatTheFitStates) {
-  GTEST_SKIP()
-      << "near capture simulated errors are not linear; error_sources_test compares them above it";
   int compared = 0;
   for (const Made* made : answered()) {
-    // Every simulation with other constants would make its own table of impacts.
-    const std::string captures = made->choice.at("captures");
-    const bool differing =
-        made->choice.at("sizes") == "mixed" || (captures != "none" && captures != "counted");
-    const bool slow = differing && made->choice.at("materials") != "exact";
-    if (slow || !states_its_scatter(*made)) continue;
+    // Other constants move points to capture, where the weights of the fit do not hold.
+    if (made->choice.at("materials") != "exact" || !states_its_scatter(*made)) continue;
     const FitResult& fitted = made->analysis->fitted;
     WhiteScatter scatter(fitted);
     if (scatter.points() < 4) continue;
@@ -412,9 +409,16 @@ support::Outcome ask(const Made& made, const std::vector<std::string>& words,
   return support::run_recoil(all, made.folder);
 }
 
+/// Is a parameter without an effect on any point refused, since the fit has no value of it?
+bool is_undetermined(const Made& made, const support::Outcome& run) {
+  if (made.analysis->fitted.flat.empty()) return false;
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("has no value: no point depends on it"), std::string::npos) << run.err;
+  return true;
+}
+
 // A sphere that `simulate` is asked for belongs to no series.
 TEST_F(Pairs, SimulateAnswersAsTheCurve) {
-  GTEST_SKIP() << "open: --parameters refuses the fit.json of a fit with size_exponent";
   for (const Made* made : answered()) {
     if (made->choice.at("mechanism") == "series_offset") continue;
     SCOPED_TRACE(made->folder.string() + ": " + pairs::words_of(made->choice));
@@ -422,6 +426,7 @@ TEST_F(Pairs, SimulateAnswersAsTheCurve) {
     const support::Outcome run = ask(*made, {"simulate"},
                                      {"--velocity", fmt::format("{}", at.velocity), "--diameter",
                                       fmt::format("{}", at.diameter_um), "--json"});
+    if (is_undetermined(*made, run)) continue;
     ASSERT_EQ(run.status, 0) << run.err;
     const double e = nlohmann::json::parse(run.out)["restitution"];
     EXPECT_NEAR(e, at.restitution, 1e-6);
@@ -430,7 +435,6 @@ TEST_F(Pairs, SimulateAnswersAsTheCurve) {
 
 // A table has single spheres without errors of the measurement.
 TEST_F(Pairs, AnExportedTableAnswersAsTheCurve) {
-  GTEST_SKIP() << "open: --parameters refuses the fit.json of a fit with size_exponent";
   const std::set<std::string> of_measurement = {"velocity_offset", "survivor_bias",
                                                 "series_offset"};
   for (const Made* made : answered()) {
@@ -442,6 +446,7 @@ TEST_F(Pairs, AnExportedTableAnswersAsTheCurve) {
         ask(*made, {"export"},
             {"--velocity", fmt::format("{},{}", at.velocity, 2.0 * at.velocity), "--diameter",
              fmt::format("{}", at.diameter_um), "--to", "table", "--out", "table"});
+    if (is_undetermined(*made, run)) continue;
     ASSERT_EQ(run.status, 0) << run.err;
     const std::string csv = support::text_of(made->folder / "table/restitution.csv");
     double diameter_um = 0.0, velocity = 0.0, e = 0.0;
