@@ -49,27 +49,15 @@ struct TrueErrors {
   std::vector<double> of_restitution;    ///< errors of e beside the scatter of the points [1]
 };
 
-/// The points as stated, without errors.
-TrueErrors without_errors(const FitResult& fitted) {
-  return {fitted.data.conditions(), std::vector<double>(fitted.data.points.size(), 0.0)};
-}
-
 /// Draws the errors of all sources: an error of V or d moves the sphere, so that its impact is
 /// simulated where it really was; what else the error changes is an error of e.
 TrueErrors draw_errors(const FitResult& fitted, RandomStream& random) {
-  TrueErrors errors = without_errors(fitted);
+  TrueErrors errors{fitted.data.conditions(), std::vector<double>(fitted.data.points.size(), 0.0)};
+  ErrorDraws draws(random);
   for (const ErrorSource* source : fitted.data.sources) {
-    std::map<std::size_t, double> drawn;  // in standard deviations
     for (std::size_t i = 0; i < errors.spheres.size(); ++i) {
       const Observation& point = fitted.data.points[i];
-      std::vector<ErrorPart> parts = source->parts(point);
-      if (source->shared == SharedBy::none) parts = {{i}};
-      double z = 0.0;
-      for (const ErrorPart& part : parts) {
-        const auto [place, is_new] = drawn.try_emplace(part.draw, 0.0);
-        if (is_new) place->second = random.normal();
-        z += place->second * part.factor;
-      }
+      const double z = draws(*source, point, i);
       const InputShift by = source->shift(point);
       errors.spheres[i].velocity *= std::exp(by.velocity * z);
       errors.spheres[i].diameter *= std::exp(by.diameter * z);
@@ -248,9 +236,8 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
       for (ImpactPoint& point : dataset.points) {
         DesignPoint& designed = design[i];
         const auto stated = point.restitution_sd;
-        const double own_sd = own_noise_scale(fit.data, i, designed.sd);
-        const bool all_shared = own_sd < designed.sd;
-        designed.sd = own_sd;
+        const bool all_shared = !has_own_scatter(fit.data, i);
+        if (all_shared) designed.sd = 0.0;
         simulate_point(designed, fit.weights.noise.event_spread, other_truth,
                        fit.data.noise.sd_stated, noise, point);
         if (all_shared) point.restitution_sd = stated;

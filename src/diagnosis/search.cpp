@@ -144,9 +144,10 @@ WeightedData simulate_points(const SearchBase& base, std::span<const double> squ
     PointWeights& own = sample.weights.points[i];
     const double loss = std::clamp(1.0 - squares[i], 0.0, 1.0);
     const double bent = squares[i] + loss * wrong_by(static_cast<Eigen::Index>(i));
-    const DrawnPoint drawn = simulate_observation(point, own, shifted_square(bent, shared[i]),
-                                                  own_noise_scale(fitted.data, i, base.noise_scale),
-                                                  fitted.data.noise.student, random);
+    const DrawnPoint drawn =
+        simulate_observation(point, own, shifted_square(bent, shared[i]),
+                             has_own_scatter(fitted.data, i) ? base.noise_scale : 0.0,
+                             fitted.data.noise.student, random);
     point = drawn.point;
     own = drawn.weights;
     locate_peak(point, own);

@@ -10,13 +10,6 @@
 namespace recoil {
 namespace {
 
-/// Has the point a scatter of its own beside the errors that it shares? [points]
-std::vector<bool> own_scatters(const Observations& data) {
-  std::vector<bool> own(data.points.size(), true);
-  for (std::size_t i = 0; i < own.size(); ++i) own[i] = own_noise_scale(data, i, 1.0) > 0.0;
-  return own;
-}
-
 /// The error of e of point i by one standard deviation of source k; 0 for a predicted capture.
 double error_of_restitution(const Weights& weights, std::size_t k, std::size_t i) {
   const double m = weights.predicted[i];
@@ -25,12 +18,10 @@ double error_of_restitution(const Weights& weights, std::size_t k, std::size_t i
 
 }  // namespace
 
-double own_noise_scale(const Observations& data, std::size_t point, double noise_scale) {
-  const bool shared =
-      std::any_of(data.sources.begin(), data.sources.end(), [&](const ErrorSource* source) {
-        return source->is_scatter() && !source->parts(data.points[point]).empty();
-      });
-  return shared ? 0.0 : noise_scale;
+bool has_own_scatter(const Observations& data, std::size_t point) {
+  return std::none_of(data.sources.begin(), data.sources.end(), [&](const ErrorSource* source) {
+    return source->is_scatter() && !source->parts(data.points[point]).empty();
+  });
 }
 
 std::vector<std::vector<double>> loads_of_sources(const Observations& data,
@@ -68,7 +59,6 @@ SharedErrors::SharedErrors(const Observations& data, const Weights& weights) {
       }
     }
   }
-  const std::vector<bool> own_scatter = own_scatters(data);
   std::map<std::size_t, std::size_t> block_of;  // block of a point
   std::vector<std::vector<const std::vector<Member>*>> blocks;
   for (const auto& [draw, members] : columns) {
@@ -85,11 +75,11 @@ SharedErrors::SharedErrors(const Observations& data, const Weights& weights) {
     }
   }
   for (const auto& own : blocks) {
-    if (!own.empty()) add_block(own_scatter, own);
+    if (!own.empty()) add_block(data, own);
   }
 }
 
-void SharedErrors::add_block(const std::vector<bool>& own_scatter,
+void SharedErrors::add_block(const Observations& data,
                              const std::vector<const std::vector<Member>*>& columns) {
   Block block;
   std::map<std::size_t, Eigen::Index> row;
@@ -109,7 +99,7 @@ void SharedErrors::add_block(const std::vector<bool>& own_scatter,
   }
   Eigen::VectorXd own(loads.rows());
   for (Eigen::Index i = 0; i < own.size(); ++i) {
-    own(i) = own_scatter[block.points[static_cast<std::size_t>(i)]] ? 1.0 : 0.0;
+    own(i) = has_own_scatter(data, block.points[static_cast<std::size_t>(i)]) ? 1.0 : 0.0;
   }
   if (own.minCoeff() < 1.0) {
     Eigen::MatrixXd all = loads * loads.transpose();
@@ -159,21 +149,32 @@ void SharedErrors::whiten(std::span<double> rows, std::size_t columns) const {
   }
 }
 
+double ErrorDraws::draw(const ErrorSource& source, std::size_t number) {
+  const auto [place, is_new] = drawn_.try_emplace({&source, number}, 0.0);
+  if (is_new) place->second = random_.normal();
+  return place->second;
+}
+
+double ErrorDraws::operator()(const ErrorSource& source, const Observation& point, std::size_t i) {
+  if (source.shared == SharedBy::none) {
+    return source.shift(point).relative() > 0.0 ? draw(source, i) : 0.0;
+  }
+  double sum = 0.0;
+  for (const ErrorPart& part : source.parts(point)) sum += part.factor * draw(source, part.draw);
+  return sum;
+}
+
 std::vector<double> draw_shared_errors(const Observations& data, const Weights& weights,
                                        double noise_scale, RandomStream& random) {
   std::vector<double> errors(data.points.size(), 0.0);
+  ErrorDraws draws(random);
   for (std::size_t k = 0; k < data.sources.size(); ++k) {
     const ErrorSource& source = *data.sources[k];
     if (source.shared == SharedBy::none) continue;
-    std::map<std::size_t, double> drawn;  // in standard deviations
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const double of_e = source.is_scatter() ? noise_scale * weights.points[i].sd
                                               : error_of_restitution(weights, k, i);
-      for (const ErrorPart& part : source.parts(data.points[i])) {
-        const auto [place, is_new] = drawn.try_emplace(part.draw, 0.0);
-        if (is_new) place->second = random.normal();
-        errors[i] += place->second * part.factor * of_e;
-      }
+      errors[i] += draws(source, data.points[i], i) * of_e;
     }
   }
   return errors;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/random.hpp"
@@ -43,8 +45,7 @@ class SharedErrors {
     /// For blocks in which D is not I: (D + U U')^(-1/2) [points x points].
     std::vector<double> whole;
   };
-  void add_block(const std::vector<bool>& own_scatter,
-                 const std::vector<const std::vector<Member>*>& columns);
+  void add_block(const Observations& data, const std::vector<const std::vector<Member>*>& columns);
 
   std::vector<Block> blocks_;
   double log_determinant_ = 0.0;
@@ -54,6 +55,21 @@ class SharedErrors {
 /// [Observations::sources][points].
 std::vector<std::vector<double>> loads_of_sources(const Observations& data, const Weights& weights);
 
+/// The draws of the errors of one simulated data set. Points that share an error get the same draw.
+class ErrorDraws {
+ public:
+  explicit ErrorDraws(RandomStream& random) : random_(random) {}
+
+  /// The error of point i from this source, in its standard deviations; 0 if it has no such error.
+  double operator()(const ErrorSource& source, const Observation& point, std::size_t i);
+
+ private:
+  double draw(const ErrorSource& source, std::size_t number);
+
+  RandomStream& random_;
+  std::map<std::pair<const ErrorSource*, std::size_t>, double> drawn_;
+};
+
 /// Draws the errors that points share, as the error of e of every point [points] [1].
 /// @param noise_scale scale of the errors that are the whole scatter of a point
 std::vector<double> draw_shared_errors(const Observations& data, const Weights& weights,
@@ -62,7 +78,7 @@ std::vector<double> draw_shared_errors(const Observations& data, const Weights& 
 /// e^2 if e is read too large by `error`; unchanged for captures.
 double shifted_square(double restitution_squared, double error);
 
-/// The noise scale of the scatter that a point has of its own: 0 if shared errors are all of it.
-double own_noise_scale(const Observations& data, std::size_t point, double noise_scale);
+/// Has the point a scatter of its own, beside the errors that it shares?
+bool has_own_scatter(const Observations& data, std::size_t point);
 
 }  // namespace recoil

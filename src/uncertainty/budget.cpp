@@ -135,7 +135,7 @@ class BudgetMaker {
           weighted_residual(data.points[i], own, fitted_.prediction_squared[i], data.noise.student)
               .slope;
       numerics += std::pow(b[i] * slope * solver_error / scale_, 2);
-      double rest = own_noise_scale(data, i, b[i] * b[i]);
+      double rest = has_own_scatter(data, i) ? b[i] * b[i] : 0.0;
       for (std::size_t k = 0; k < of_source.size() && rest > 0.0; ++k) {
         if (data.sources[k]->shared != SharedBy::none) continue;
         const double share = std::pow(fitted_.weights.effects[k][i] * slope, 2);

@@ -124,8 +124,6 @@ std::optional<std::string> scheme_obstacle(Scheme scheme, const Observations& da
   }
   for (const ErrorSource* source : data.sources) {
     if (source->shared == SharedBy::none || !(by_residuals || scheme == Scheme::cases)) continue;
-    // Signs of the wild bootstrap are drawn by setting.
-    if (source->shared == SharedBy::setting && scheme == Scheme::wild) continue;
     return fmt::format(
         "points share an error ({}): single points cannot be exchanged, whole {} can (cluster)",
         source->names.stated_by, source->shared == SharedBy::setting ? "settings" : "series");
@@ -168,7 +166,7 @@ void resample_parametric(const ResamplingPlan& plan, std::span<const double> sha
     const double m = fitted.prediction_squared[i];
     Observation& point = sample.points[i];
     point = simulate_observation(measured, own, shifted_square(m, shared_errors[i]),
-                                 own_noise_scale(fitted.data, i, fitted.noise_scale),
+                                 has_own_scatter(fitted.data, i) ? fitted.noise_scale : 0.0,
                                  fitted.data.noise.student, random)
                 .point;
     if (!other_constants || !fitted.data.noise.sd_stated) continue;
@@ -187,13 +185,9 @@ void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observa
 
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points = plan.fitted->data.points;
-  std::map<std::size_t, double> sign_of;  // sign of each setting, if its points share an error
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    const std::size_t unit =
-        plan.fitted->data.share(SharedBy::setting) ? sample.points[i].setting : i;
-    const auto [sign, is_new] = sign_of.try_emplace(unit, 1.0);
-    if (is_new && random.uniform() < 0.5) sign->second = -1.0;
-    disturb(plan, i, sign->second * plan.residuals[i], random, sample);
+    const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
+    disturb(plan, i, sign * plan.residuals[i], random, sample);
   }
 }
 

@@ -66,9 +66,7 @@ void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observa
 /// e*_i = e_model,i + sd_i r_i / (1 - h_i) v_i with v_i = -1 or +1, equally likely: the wild
 /// bootstrap (Wu 1986, Ann. Statist. 14, 1261-1295) with the HC3 scaling and Rademacher signs,
 /// which performed better in small samples than the two-point distribution of Mammen (1993), see
-/// Davidson & Flachaire (2008), J. Econometrics 146, 162-169. If settings share errors, the points
-/// of one setting have the same sign (Cameron, Gelbach & Miller 2008, Rev. Econ. Stat. 90,
-/// 414-427).
+/// Davidson & Flachaire (2008), J. Econometrics 146, 162-169.
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
 /// Draws n whole points with replacement; makes no assumption about the noise.

@@ -403,11 +403,10 @@ const std::vector<Pair>& refused_pairs() {
                                pair_of({"residuals", "student"}, {"setting_velocity_sd", "yes"}),
                                pair_of({"residuals", "student"}, {"series_diameter_sd", "yes"})};
     // single points cannot be exchanged if they share errors
-    for (const char* scheme : {"residual", "case"}) {
+    for (const char* scheme : {"residual", "wild", "case"}) {
       pairs.push_back(pair_of({"scheme", scheme}, {"setting_velocity_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"setting", "stated"}));
-    }
-    for (const char* scheme : {"residual", "wild", "case"}) {
+      pairs.push_back(pair_of({"scheme", scheme}, {"setting", "estimated"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"series_diameter_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"launch", "yes"}));
     }
@@ -422,10 +421,6 @@ const std::vector<Pair>& pairs_left_out() {
     // without adhesion nothing is captured
     for (const char* form : {"whole", "mixed", "counts"}) {
       pairs.push_back(pair_of({"law", "none"}, {"captures", form}));
-    }
-    // refused if the estimate is above zero
-    for (const char* scheme : {"residual", "case"}) {
-      pairs.push_back(pair_of({"scheme", scheme}, {"setting", "estimated"}));
     }
     // every point is nine spheres, or nine times nine
     for (const char* mechanism : {"survivor_bias", "adhesion_hysteresis"}) {

@@ -207,14 +207,6 @@ double largest_ratio(const std::string& scheme) {
   return scheme == "case" || scheme == "cluster" ? 8.0 : 4.0;
 }
 
-/// The wild scheme has one sign for each setting that shares an error. A fit of four settings
-/// passes nearly through their means, so that the signs change nothing: these intervals are too
-/// narrow.
-bool has_too_few_signs(const Choice& choice) {
-  return choice.at("scheme") == "wild" &&
-         (choice.at("setting") != "no" || choice.at("setting_velocity_sd") == "yes");
-}
-
 // Of parameters that are known to better than a quarter, beside none that rests on a bound: other
 // intervals end at bounds or are skewed.
 TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
@@ -222,7 +214,6 @@ TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
   for (const Made* made : answered()) {
     const FitResult& fitted = made->analysis->fitted;
     if (std::ranges::find(fitted.at_bound, true) != fitted.at_bound.end()) continue;
-    if (has_too_few_signs(made->choice)) continue;
     for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
       const ParameterSlot& slot = fitted.model.slots[j];
       const IntervalSet& intervals = made->analysis->uncertainty.intervals[j];

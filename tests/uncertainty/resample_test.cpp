@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "estimate/setting_error.hpp"
 #include "support/noisy_case.hpp"
@@ -78,7 +77,7 @@ Case with_settings(double shared) {
 
 TEST(Plan, SinglePointsOfASettingAreNotExchanged) {
   const Case c = with_settings(0.05);
-  for (const Scheme scheme : {Scheme::residual, Scheme::cases}) {
+  for (const Scheme scheme : {Scheme::residual, Scheme::wild, Scheme::cases}) {
     EXPECT_THAT(scheme_obstacle(scheme, c.fitted.data).value_or(""), HasSubstr("setting_sd"));
   }
   EXPECT_FALSE(scheme_obstacle(Scheme::cluster, c.fitted.data));
@@ -105,22 +104,6 @@ TEST(Parametric, PointsOfASettingMoveTogether) {
   const double error = 4.0 * (shared * shared + own * own) * std::sqrt(2.0 / count);
   EXPECT_NEAR(together, shared * shared, error);
   EXPECT_NEAR(apart, 0.0, error);
-}
-
-TEST(Wild, PointsOfASettingHaveOneSign) {
-  const Case c = with_settings(0.05);
-  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::wild);
-  std::set<double> products;
-  for (std::uint64_t r = 0; r < 50; ++r) {
-    const Observations sample = drawn(plan, r);
-    const auto sign = [&](std::size_t i) {
-      return std::copysign(
-          1.0, (sample.points[i].restitution - c.fitted.prediction[i]) * plan.residuals[i]);
-    };
-    EXPECT_EQ(sign(4), sign(6));
-    products.insert(sign(4) * sign(5));
-  }
-  EXPECT_EQ(products.size(), 2U);
 }
 
 TEST(Cluster, ASettingDrawnTwiceIsTwoSettings) {
