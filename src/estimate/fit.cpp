@@ -292,7 +292,7 @@ std::vector<std::size_t> held_back_dampings(const FitResult& fitted) {
   return found;
 }
 
-const StartSummary& FitResult::best_start() const {
+const StartSummary& FitEnd::best_start() const {
   return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
     return start.outcome == StartOutcome::best;
   });

@@ -42,56 +42,72 @@ struct FitOptions {
   int threads = 0;  ///< 0: the caller's arena. Results do not depend on the number of threads.
 };
 
-/// The full least-squares fit.
-struct FitResult {
+/// The end of the descent to the least sum of squares.
+struct FitEnd {
   bool usable = false;
-  std::string failure;  ///< message: the reason, and the point that caused it
-  ImpactModel model;
-  Observations data;  ///< the points that were fitted
-  Weights weights;    ///< theirs in this fit; refits, profiles and simulations start from them
+  std::string failure;                         ///< the reason, and the point that caused it
   std::vector<double> theta;                   ///< [slots]
   std::vector<bool> at_bound;                  ///< [slots]
   DescentEnd ending = DescentEnd::minimum;     ///< end of the last descent: minimum, valley or flat
   Strategy strategy = Strategy::trust_region;  ///< strategy of the last descent
   /// Slots without effect on any point; their values are undetermined.
   std::vector<std::size_t> flat;
+  std::vector<StartSummary> starts;
+  std::size_t searched_points = 0;  ///< points on which the starts were compared, see `fit`
+  /// Impacts of all descents that the fast solver handed to the reference.
+  long handovers = 0;
+
+  /// @pre usable
+  const StartSummary& best_start() const;
+};
+
+/// The fit at each point.
+struct FitAtPoints {
+  std::vector<double> residuals;           ///< weighted residuals [points]
+  std::vector<double> prediction;          ///< e at each point [1]
+  std::vector<double> prediction_squared;  ///< e^2, continued below zero
+  std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
+};
+
+/// The errors of the parameters.
+struct FitErrors {
   std::vector<double> covariance;  ///< [slots x slots]; scaled by noise_scale^2
   /// The part of `covariance` that the uncertainty of event_spread adds; or empty.
   std::vector<double> spread_covariance;
   /// For constants that fits do not move: the change of theta when the constant is one standard
   /// deviation above its stated value [constant][slot]. `covariance` includes their outer products.
   std::vector<std::vector<double>> constant_effects;
-  std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
-  std::vector<double> residuals;           ///< weighted residuals [points]
-  std::vector<double> prediction;          ///< e at each point [1]
-  std::vector<double> prediction_squared;  ///< e^2, continued below zero
-  std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
+  std::vector<double> std_error;  ///< [slots]; 0 for fixed ones and those at a bound
+  /// Degrees of freedom of the estimated error that has the fewest; 0: no error is estimated. For
+  /// the quantiles of an interval see `degrees_of_freedom`.
+  int quantile_dof = 0;
+};
+
+/// How the points agree with the fit.
+struct FitQuality {
   double chi2 = 0.0;       ///< sum of squares under the stated weights, including the deviations of
                            ///< uncertain constants
   double objective = 0.0;  ///< sum of squares at the minimum; differs from chi2 if noise_scale !=
                            ///< 1, as the constants then have another weight
   int dof = 0;             ///< see Misfit
   double p_value = 0.0;    ///< of the misfit, in [0, 1]; meaningless if !sd_stated
+  double rmse = 0.0;       ///< root mean square of e - e_model over all points with a known e [1]
   /// Deviations of the uncertain material constants from their stated values, in standard
   /// deviations [ImpactModel::constants].
   std::vector<double> constants_moved;
-  double rmse = 0.0;         ///< root mean square of e - e_model over all points with a known e [1]
   double noise_scale = 1.0;  ///< factor on the standard deviations of `data` in every interval; 1
                              ///< if they explain the scatter or this fit estimated them
-  /// Degrees of freedom of the estimated error that has the fewest; 0: no error is estimated. For
-  /// the quantiles of an interval see `degrees_of_freedom`.
-  int quantile_dof = 0;
   NoiseVerdict noise_verdict = NoiseVerdict::unchecked;
   int strained_points = 0;      ///< points with an input_bias above `strained_bias`
   bool weights_at_rest = true;  ///< false: the weights still changed in the last round
   std::optional<UnusedCounts> unused_counts;
-  /// Impacts of all descents that the fast solver handed to the reference.
-  long handovers = 0;
-  std::vector<StartSummary> starts;
-  std::size_t searched_points = 0;  ///< points on which the starts were compared, see `fit`
+};
 
-  /// @pre usable
-  const StartSummary& best_start() const;
+/// The full least-squares fit.
+struct FitResult : FitEnd, FitAtPoints, FitErrors, FitQuality {
+  ImpactModel model;
+  Observations data;  ///< the points that were fitted
+  Weights weights;    ///< theirs in this fit; refits, profiles and simulations start from them
 };
 
 /// Fits the free parameters of `model` to all points at once from several starts, then once more
