@@ -1,8 +1,10 @@
-# `cmake --install build/release` and a Debian package (`cpack -G DEB`): the program, with the manual
-# inside it, and the JSON Schemas of its results.
+# `cmake --install build/release` and a Debian package (`cpack -G DEB`): the program, its manual, and
+# the JSON Schemas of its results.
 include(GNUInstallDirs)
 install(TARGETS recoil RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN site EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/recoil)
 
 # find_package(recoil) of other CMake projects. The program's package leaves this out.

@@ -15,19 +15,6 @@
 
 namespace recoil {
 
-AnalysisOptions analysis_options(const std::string& replicates, const std::string& scheme,
-                                 std::optional<std::uint64_t> seed, int threads,
-                                 const std::string& solver) {
-  AnalysisOptions options;
-  options.replicates_auto = replicates == "auto";
-  if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
-  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
-  options.seed = seed;
-  options.threads = threads;
-  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
-  return options;
-}
-
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
   UncertaintyOptions assess;
   assess.replicates = options.replicates.value_or(spec.uncertainty.replicates);
@@ -88,13 +75,13 @@ void add_predictions(Analysis& analysis) {
 }
 
 PolydispersePrediction predict_sizes(const Analysis& analysis, const MeasuredSizes& sizes,
-                                     std::optional<double> height_mm, bool midpoints,
+                                     std::optional<double> height, bool midpoints,
                                      const std::string& dataset) {
   PolydisperseOptions mix;
   mix.level = analysis.uncertainty.options.level;
   mix.threads = analysis.uncertainty.options.threads;
   if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
-  if (height_mm) mix.probe_height = *height_mm * units::mm;
+  if (height) mix.probe_height = *height;
   if (midpoints) mix.parts = 1;
   return predict_mixture(analysis.fitted, choose_dataset(analysis.datasets, dataset),
                          analysis.uncertainty.bootstrap, sizes, mix);

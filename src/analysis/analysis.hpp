@@ -52,12 +52,6 @@ struct AnalysisOptions {
   std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
-/// What people state: a number of replicates or "auto", the names of a scheme and of a solver. What
-/// is empty is that of the fit file.
-AnalysisOptions analysis_options(const std::string& replicates, const std::string& scheme,
-                                 std::optional<std::uint64_t> seed, int threads,
-                                 const std::string& solver);
-
 /// Reads a fit file and its datasets, and chooses the loss (`choose_loss`).
 /// @throws InputError
 FitInputs load_inputs(const std::filesystem::path& fit_file);
@@ -96,12 +90,12 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
 void add_predictions(Analysis& analysis);
 
 /// The mixture of `sizes` under the fit, with bands of its bootstrap.
-/// @param height_mm of the measuring plane [mm], where it is not that of `sizes`
+/// @param height of the measuring plane [m], where it is not that of `sizes`
 /// @param midpoints all spheres of a bin are at its midpoint
 /// @param dataset id; the first where it is empty
 /// @throws InputError
 PolydispersePrediction predict_sizes(const Analysis& analysis, const MeasuredSizes& sizes,
-                                     std::optional<double> height_mm, bool midpoints,
+                                     std::optional<double> height, bool midpoints,
                                      const std::string& dataset);
 
 /// The index of the dataset named `id`; 0 if `id` is empty.

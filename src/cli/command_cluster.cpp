@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <regex>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/numbers.hpp"
 #include "core/quoting.hpp"
 #include "core/resumable.hpp"
 #include "document/sentence.hpp"
@@ -28,7 +26,7 @@ struct ClusterJob {
   std::size_t shards = 1;
   std::string out;
   int cpus = 1;                    ///< of each shard
-  std::string time = "01:00:00";   ///< limit of each shard
+  std::string time;                ///< limit of each shard
   fs::path recoil = {};            ///< the program
   fs::path where = {};             ///< the working directory of the command
   fs::path folder = {};            ///< absolute path of parts, scripts and results
@@ -111,31 +109,19 @@ job=$(sbatch --parsable "$missing" "$folder/array.sbatch") || exit
 sbatch --dependency="afterany:${job%%;*}" "$folder/run.sh" $((round + 1))
 )";
 
-const char* const merge_script = R"(#!/bin/sh
-# Merges the shards. It lists missing shards; start the job again to run them.
-cd @WHERE@ || exit 1
-@RECOIL@ merge @FOLDER@ >@FOLDER@/result.txt
-)";
-
 const char* const parallel_run = R"(#!/bin/sh
 # Starts the job: sh run.sh. Finished shards are not run again. To use several machines, give parallel
 # their names (--sshlogin, --sshloginfile); they must share this folder.
 folder=@FOLDER@
 seq @SHARDS@ | parallel --jobs @JOBS@ --retries 5 --joblog "$folder/parallel.log" \
   "sh {2}/shard.sh {1} >>{2}/log-{1}.txt 2>&1" :::: - ::: "$folder"
-exec sh "$folder/merge.sh"
+# This lists missing shards; start the job again to run them.
+cd @WHERE@ || exit 1
+@RECOIL@ merge "$folder" >"$folder/result.txt"
 )";
 
-std::string clock_time(long seconds) {
+std::string clock_time(std::int64_t seconds) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
-}
-
-/// "01:30:00" [s]; nullopt for any other text.
-std::optional<long> seconds_named(const std::string& text) {
-  static const std::regex clock("([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])");
-  std::smatch part;
-  if (!std::regex_match(text, part, clock)) return std::nullopt;
-  return 3600 * std::stol(part[1]) + 60 * std::stol(part[2]) + std::stol(part[3]);
 }
 
 /// The scripts of a job.
@@ -152,15 +138,14 @@ std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
                       {"WORDS", joined(job.words, " ", shell_word)},
                       {"CPUS", fmt::format("{}", job.cpus)},
                       {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)},
-                      {"TIME", clock_time(*seconds_named(job.time))},
+                      {"TIME", clock_time(*parse_clock_time(job.time))},
                       {"AT", "@"}})};
   };
   if (job.system == "slurm") {
     return {script("shard.sh", shard_script), script("array.sbatch", slurm_array),
             script("run.sh", slurm_run)};
   }
-  return {script("shard.sh", shard_script), script("merge.sh", merge_script),
-          script("run.sh", parallel_run)};
+  return {script("shard.sh", shard_script), script("run.sh", parallel_run)};
 }
 
 const char* const shareable[] = {"fit", "coverage", "diagnose"};
@@ -199,20 +184,10 @@ void require_valid(const std::vector<std::string>& words) {
   std::vector<std::string> all = words;
   all.insert(all.end(), {"--shard", "1/1", "--out", "."});
   try {
-    for (const std::string& file : trial.values_in(all, "FIT")) load_inputs(file);
+    load_inputs(trial.parse(all).text("FIT"));
   } catch (const UsageError& error) {
-    throw InputError({}, error.what(), "", fmt::format("see recoil {} --help", words.front()));
+    throw InputError({}, error.what(), "", "");
   }
-}
-
-// Slurm may send its signal up to a minute early, and a shard needs time for its work.
-constexpr long shortest_time = 600;  // [s]
-
-std::string complaint_about_time(const std::string& text) {
-  const std::optional<long> seconds = seconds_named(text);
-  return seconds && *seconds >= shortest_time
-             ? ""
-             : fmt::format("{} is not hours:minutes:seconds, at least 00:10:00", text);
 }
 
 void write_scripts(ClusterJob job, const std::vector<std::string>& words) {
@@ -250,29 +225,22 @@ void write_scripts(ClusterJob job, const std::vector<std::string>& words) {
 }  // namespace
 
 void add_cluster(Program& program) {
-  const Command command = program.command(
+  program.command_with_other_words(
       "cluster", "write scripts that run a command in shards on a cluster and merge the shards", R"(
 Give a fit file, or a command with its options: fit, coverage or diagnose. You can edit the
 scripts. All machines must find the folder, the program and the data under the same paths.
 
   recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big
-  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big)");
-  const auto job = std::make_shared<ClusterJob>();
-  command.option("SYSTEM", job->system, "slurm, or parallel (GNU parallel)")
-      .required()
-      .one_of({"slurm", "parallel"});
-  command.option("--shards", job->shards, "how many").required().within(1, most_shards);
-  command.option("--out", job->out, "folder for scripts, parts and results")
-      .required()
-      .takes("DIR");
-  command.option("--cpus", job->cpus, "threads of each shard").shows_default().within(1, 4096);
-  command
-      .option("--time", job->time,
-              "time limit of each shard, hours:minutes:seconds, at least 00:10:00")
-      .shows_default()
-      .check(complaint_about_time);
-  command.allows_other_words();
-  command.runs([job, command] { write_scripts(*job, words_of_job(command.other_words())); });
+  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big)",
+      [](const GivenOptions& given) {
+        ClusterJob job;
+        job.system = given.text("SYSTEM");
+        job.shards = static_cast<std::size_t>(given.whole("--shards"));
+        job.out = given.text("--out");
+        job.cpus = static_cast<int>(given.whole("--cpus"));
+        job.time = given.text("--time");
+        write_scripts(job, words_of_job(given.other_words));
+      });
 }
 
 }  // namespace recoil

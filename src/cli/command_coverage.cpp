@@ -16,11 +16,6 @@ namespace recoil {
 
 namespace {
 
-struct Options : CommonFlags {
-  int datasets = 100;
-  ShardFlags shards;
-};
-
 /// The inputs of the simulation.
 struct Prepared {
   FitSpec spec;
@@ -31,19 +26,19 @@ struct Prepared {
 };
 
 /// @returns a pointer, because `truth` may refer to `spec`
-std::unique_ptr<Prepared> prepare(const Options& options) {
+std::unique_ptr<Prepared> prepare(const GivenOptions& given, const ShardOfCommand& shard) {
   auto ready = std::make_unique<Prepared>();
-  FitInputs inputs = load_inputs(options.fit_file);
+  FitInputs inputs = load_inputs(given.text("FIT"));
   ready->spec = std::move(inputs.spec);
   ready->datasets = std::move(inputs.datasets);
   CoverageOptions& coverage = ready->coverage;
-  coverage.datasets = options.datasets;
-  coverage.uncertainty = uncertainty_options(ready->spec, options.analysis.resolved());
+  coverage.datasets = static_cast<int>(given.whole("--datasets"));
+  coverage.uncertainty = uncertainty_options(ready->spec, analysis_options(given));
   require_scheme(ready->spec, coverage.uncertainty.scheme, gather(ready->datasets));
   ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
   ready->origin =
-      options.shards.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
-                            static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
+      shard.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
+                   static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
   return ready;
 }
 
@@ -92,24 +87,25 @@ Pieces pieces_of(const Prepared& ready) {
           }};
 }
 
-void run(const Options& options) {
-  const bool shard = options.shards.one_of_several();
-  if (shard) {
-    options.shards.require_share(options.out, static_cast<std::size_t>(options.datasets));
-  } else if (!options.out.empty()) {
-    require_writable_folder(std::filesystem::absolute(options.out).parent_path());
+void run_coverage(const GivenOptions& given) {
+  const ShardOfCommand shard(given);
+  const std::string out = given.text("--out");
+  if (shard.one_of_several()) {
+    shard.require_share(static_cast<std::size_t>(given.whole("--datasets")));
+  } else if (!out.empty()) {
+    require_writable_folder(std::filesystem::absolute(out).parent_path());
   }
-  const std::unique_ptr<Prepared> ready = prepare(options);
+  const std::unique_ptr<Prepared> ready = prepare(given, shard);
   std::optional<Claim> claim;
-  if (!shard && !options.out.empty()) {
-    require_free({options.out});
-    claim.emplace(options.out);
+  if (!shard.one_of_several() && !out.empty()) {
+    require_free({out});
+    claim.emplace(out);
   }
-  const std::shared_ptr<KeptRows> kept = options.shards.rows(ready->origin, options.out);
+  const std::shared_ptr<KeptRows> kept = shard.rows(ready->origin, out);
   if (!kept) return;
   const Pieces pieces = pieces_of(*ready);
-  if (shard) {
-    options.shards.run_share(pieces, *kept, ready->origin, options.out);
+  if (shard.one_of_several()) {
+    shard.run_share(pieces, *kept, ready->origin);
     return;
   }
   resumable(pieces, *kept);
@@ -123,9 +119,10 @@ void run(const Options& options) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
   }
   const std::string printed =
-      options.json ? coverage_json(result, ready->spec, ready->coverage, ready->datasets) : text;
-  if (!options.out.empty()) {
-    write_or_print({{options.out, text}}, printed);
+      given.has("--json") ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
+                          : text;
+  if (!out.empty()) {
+    write_or_print({{out, text}}, printed);
     kept->forget();
   }
   print_text("{}", printed);
@@ -134,8 +131,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_coverage(Program& program) {
-  const Command command =
-      program.command("coverage", "measure how often the intervals contain the truth", R"(
+  program.command("coverage", "measure how often the intervals contain the truth", R"(
 Simulates data sets of the same design with the fitted values as the truth, fits each of them,
 and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
 finished work, and the same command then continues.
@@ -143,21 +139,8 @@ finished work, and the same command then continues.
   recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md
 
 The study program covers grids of designs and several fits: ./run study, or
-recoil_study --help.)");
-  const auto options = std::make_shared<Options>();
-  add_fit_file(command, options->fit_file);
-  command.option("--datasets", options->datasets, "simulated data sets")
-      .shows_default()
-      .within(1, 1000000);
-  command
-      .option("--out", options->out,
-              "also write the table to this file; with --shard: folder for the shards")
-      .takes("FILE");
-  add_shard_flags(command, "data sets", options->shards);
-
-  add_analysis_flags(command, options->analysis);
-  add_json_flag(command, options->json);
-  command.runs([options] { run(*options); });
+recoil_study --help.)",
+                  run_coverage);
 }
 
 }  // namespace recoil

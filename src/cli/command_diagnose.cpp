@@ -15,43 +15,40 @@
 namespace recoil {
 namespace {
 
-struct DiagnoseFlags : CommonFlags {
-  int rates = 0;
-  ShardFlags shards;
-
-  DiagnosisOptions options(const FitSpec& spec) const {
-    DiagnosisOptions chosen;
-    chosen.threads = analysis.threads;
-    chosen.seed = stated_seed(analysis.seed).value_or(spec.uncertainty.seed);
-    return chosen;
-  }
-};
+DiagnosisOptions diagnosis_options(const GivenOptions& given, const FitSpec& spec) {
+  DiagnosisOptions options;
+  options.threads = static_cast<int>(given.whole("--threads"));
+  options.seed = seed_of(given, spec);
+  return options;
+}
 
 /// Identifies the rows of the calibration.
-Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs,
+Origin origin_of_calibration(const GivenOptions& given, const FitInputs& inputs,
                              const Calibration& calibration) {
-  return flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed,
-                             calibration.pieces(), calibration.digits());
+  const ShardOfCommand shard(given);
+  return shard.origin(inputs.spec, inputs.datasets, diagnosis_options(given, inputs.spec).seed,
+                      calibration.pieces(), calibration.digits());
 }
 
 /// Measures the error rates of the diagnosis for the design and sets `diagnosis.own_design`. A
 /// shard only runs its pieces.
 /// @returns the rows to keep until the result is written; null for a shard
-std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInputs& inputs,
+std::shared_ptr<KeptRows> measure_rates(const GivenOptions& given, const FitInputs& inputs,
                                         Diagnosis& diagnosis) {
-  const DesignRates rates(diagnosis, flags.rates);
-  const Origin origin = flags.shards.origin(inputs.spec, inputs.datasets, diagnosis.options.seed,
-                                            rates.pieces(), rates.digits());
-  const Pieces pieces = {"what these points could show", rates.pieces(), flags.analysis.threads,
+  const ShardOfCommand shard(given);
+  const DesignRates rates(diagnosis, static_cast<int>(given.whole("--rates")));
+  const Origin origin = shard.origin(inputs.spec, inputs.datasets, diagnosis.options.seed,
+                                     rates.pieces(), rates.digits());
+  const Pieces pieces = {"what these points could show", rates.pieces(), diagnosis.options.threads,
                          [&](std::size_t piece) { return row_json(rates.run(piece)); }};
-  const std::filesystem::path folder = flags.out;
-  if (flags.shards.one_of_several()) {
-    const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, folder);
-    if (kept) flags.shards.run_share(pieces, *kept, origin, folder);
+  const std::filesystem::path folder = given.text("--out");
+  if (shard.one_of_several()) {
+    const std::shared_ptr<KeptRows> kept = shard.rows(origin, folder);
+    if (kept) shard.run_share(pieces, *kept, origin);
     return nullptr;
   }
   const std::shared_ptr<KeptRows> kept =
-      flags.shards.rows(origin, flags.out.empty() ? "" : folder / "rates.json");
+      shard.rows(origin, folder.empty() ? "" : folder / "rates.json");
   resumable(pieces, *kept);
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < pieces.count; ++i) rows.push_back(row_numbers(*kept->find(i)));
@@ -59,21 +56,25 @@ std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInp
   return kept;
 }
 
-void run_shard_of_calibration(const DiagnoseFlags& flags) {
-  flags.shards.require_share(flags.out, 1);
-  const FitInputs inputs = load_inputs(flags.fit_file);
-  if (flags.rates > 0) {
-    Diagnosis diagnosis = diagnose(inputs.spec, inputs.datasets, flags.options(inputs.spec));
-    measure_rates(flags, inputs, diagnosis);
+void run_shard_of_calibration(const GivenOptions& given) {
+  const ShardOfCommand shard(given);
+  shard.require_share(1);
+  const FitInputs inputs = load_inputs(given.text("FIT"));
+  if (given.has("--rates")) {
+    Diagnosis diagnosis =
+        diagnose(inputs.spec, inputs.datasets, diagnosis_options(given, inputs.spec));
+    measure_rates(given, inputs, diagnosis);
     return;
   }
-  const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
-  const Origin origin = origin_of_calibration(flags, inputs, calibration);
-  const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, flags.out);
+  const Calibration calibration(inputs.spec, inputs.datasets,
+                                diagnosis_options(given, inputs.spec));
+  const Origin origin = origin_of_calibration(given, inputs, calibration);
+  const std::shared_ptr<KeptRows> kept = shard.rows(origin, given.text("--out"));
   if (!kept) return;
-  const Pieces pieces = {"diagnosis", calibration.pieces(), flags.analysis.threads,
+  const Pieces pieces = {"diagnosis", calibration.pieces(),
+                         static_cast<int>(given.whole("--threads")),
                          [&](std::size_t piece) { return row_json(calibration.run(piece)); }};
-  flags.shards.run_share(pieces, *kept, origin, flags.out);
+  shard.run_share(pieces, *kept, origin);
 }
 
 std::filesystem::path result_in(const std::filesystem::path& folder) {
@@ -82,40 +83,43 @@ std::filesystem::path result_in(const std::filesystem::path& folder) {
 
 /// The finished rows of an earlier run of the diagnosis. For a merge these are the rows of the
 /// calibration; there are none if the parts belong to the rates.
-std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
-  if (flags.out.empty() || (flags.shards.merging() && flags.rates > 0)) {
+std::shared_ptr<KeptRows> rows_for(const GivenOptions& given, const FitInputs& inputs) {
+  const ShardOfCommand shard(given);
+  const std::filesystem::path folder = given.text("--out");
+  if (folder.empty() || (shard.merging() && given.has("--rates"))) {
     return std::make_shared<KeptRows>();
   }
-  if (flags.shards.merging()) {
-    const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
-    return flags.shards.rows(origin_of_calibration(flags, inputs, calibration), "");
+  if (shard.merging()) {
+    const Calibration calibration(inputs.spec, inputs.datasets,
+                                  diagnosis_options(given, inputs.spec));
+    return shard.rows(origin_of_calibration(given, inputs, calibration), "");
   }
   const Origin origin =
-      flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed, 0, "");
-  return flags.shards.rows(origin, result_in(flags.out));
+      shard.origin(inputs.spec, inputs.datasets, diagnosis_options(given, inputs.spec).seed, 0, "");
+  return shard.rows(origin, result_in(folder));
 }
 
-void run_diagnosis(const DiagnoseFlags& flags) {
-  const std::filesystem::path folder = flags.out;
-  if (!flags.out.empty()) require_writable_folder(folder);
-  const FitInputs inputs = load_inputs(flags.fit_file);
+void run_diagnosis(const GivenOptions& given) {
+  const std::filesystem::path folder = given.text("--out");
+  if (!folder.empty()) require_writable_folder(folder);
+  const FitInputs inputs = load_inputs(given.text("FIT"));
   std::optional<Claim> claim;
-  if (!flags.out.empty()) {
+  if (!folder.empty()) {
     require_free({folder / "extended.toml"});
     claim.emplace(result_in(folder));
   }
-  DiagnosisOptions options = flags.options(inputs.spec);
-  options.kept = rows_for(flags, inputs);
+  DiagnosisOptions options = diagnosis_options(given, inputs.spec);
+  options.kept = rows_for(given, inputs);
   Diagnosis diagnosis =
       resumable(*options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
   std::shared_ptr<KeptRows> kept_rates;
-  if (flags.rates > 0) kept_rates = measure_rates(flags, inputs, diagnosis);
+  if (given.has("--rates")) kept_rates = measure_rates(given, inputs, diagnosis);
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   const std::string printed =
-      flags.json ? result
-                 : diagnosis_text(diagnosis, importance_of(flags.verbose), output_columns());
-  if (!flags.out.empty()) {
+      given.has("--json") ? result
+                          : diagnosis_text(diagnosis, importance_of(given), output_columns());
+  if (!folder.empty()) {
     write_or_print({{folder / "extended.toml", extended_toml(diagnosis, folder)},
                     {folder / "diagnosis.html", diagnosis_html(diagnosis)},
                     {result_in(folder), result}},
@@ -129,8 +133,8 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 }  // namespace
 
 void add_diagnose(Program& program) {
-  const Command command = program.command(
-      "diagnose", "find what the model gets wrong and why, and what an extended model gains", R"(
+  program.command("diagnose",
+                  "find what the model gets wrong and why, and what an extended model gains", R"(
 Tests the residuals of the fit for structure and tries every mechanism of the catalogue, alone
 and in pairs. The verdict is one of
   adequate        the residuals show no structure
@@ -142,29 +146,14 @@ file of the extended model). Ctrl-C keeps finished work in DIR; the same command
 continues.
 
   recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis
-  recoil fit diagnosis/extended.toml)");
-  const auto flags = std::make_shared<DiagnoseFlags>();
-  add_fit_file(command, flags->fit_file);
-  command.option("--out", flags->out, "folder for the results (default: nothing is written)")
-      .takes("DIR");
-  add_threads(command, flags->analysis.threads);
-  add_seed(command, flags->analysis.seed, "the simulated data sets");
-  command
-      .option("--rates", flags->rates,
-              "also measure the error rates of the diagnosis for this design: simulate and "
-              "diagnose this many data sets for each cause that is named or listed, at full and at "
-              "half strength, and for no cause")
-      .within(1, 1000000);
-  add_shard_flags(command, "data sets", flags->shards);
-  add_json_flag(command, flags->json);
-  add_verbose_flag(command, flags->verbose);
-  command.runs([flags] {
-    if (flags->shards.one_of_several()) {
-      run_shard_of_calibration(*flags);
-    } else {
-      run_diagnosis(*flags);
-    }
-  });
+  recoil fit diagnosis/extended.toml)",
+                  [](const GivenOptions& given) {
+                    if (given.has("--shard")) {
+                      run_shard_of_calibration(given);
+                    } else {
+                      run_diagnosis(given);
+                    }
+                  });
 }
 
 }  // namespace recoil

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
@@ -19,13 +18,6 @@
 
 namespace recoil {
 namespace {
-
-struct ExportOptions : CommonFlags {
-  std::string to;
-  double diameter = 0.0;         // [um]; 0: not stated
-  std::vector<double> velocity;  // [m/s]
-  bool stock = false;
-};
 
 /// A model with its fitted values.
 struct Fitted {
@@ -47,8 +39,8 @@ void set_values(Fitted& fitted, const StandardError& std_error_of) {
   }
 }
 
-Fitted fit_points(FitInputs inputs, const ExportOptions& options, bool bands) {
-  const AnalysisOptions resolved = options.analysis.resolved();
+Fitted fit_points(FitInputs inputs, const GivenOptions& given, bool bands) {
+  const AnalysisOptions resolved = analysis_options(given);
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
   Fitted out;
   if (bands) {
@@ -73,13 +65,12 @@ Fitted fit_points(FitInputs inputs, const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const ExportOptions& options) {
+Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const std::string& file) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
-  const std::vector<FittedValue> values =
-      take_fitted_values(out.model, inputs.datasets, fit, options.parameters);
+  const std::vector<FittedValue> values = take_fitted_values(out.model, inputs.datasets, fit, file);
   out.theta = out.model.initial();
-  out.source.parameters = "from " + options.parameters;
+  out.source.parameters = "from " + file;
   set_values(out, [&](std::size_t s) { return values[s].std_error; });
   const Observations data = gather(inputs.datasets, inputs.spec);
   out.source.rmse = root_mean_square(out.model, out.theta, data, first_weights(data));
@@ -99,10 +90,11 @@ void require_rebounds(const Dataset& dataset) {
 }
 
 /// The requested diameter and velocities, or by default those of the points.
-ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, std::size_t index) {
+ExportRequest request_of(const GivenOptions& given, const Dataset& dataset, std::size_t index) {
   ExportRequest request;
   request.dataset = index;
-  if (options.velocity.empty()) {
+  const std::vector<double> velocity = given.numbers("--velocity");
+  if (velocity.empty()) {
     const auto [least, most] =
         std::minmax_element(dataset.points.begin(), dataset.points.end(),
                             [](const ImpactPoint& a, const ImpactPoint& b) {
@@ -115,13 +107,12 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
                        "state one: --velocity MIN,MAX");
     }
   } else {
-    require_range(options.velocity);
-    request.slowest = options.velocity[0];
-    request.fastest = options.velocity[1];
+    require_range(velocity);
+    request.slowest = velocity[0];
+    request.fastest = velocity[1];
   }
   const std::vector<double> sizes = distinct_diameters(dataset);
-  request.diameter =
-      options.diameter > 0.0 ? options.diameter * units::um : sizes[sizes.size() / 2];
+  request.diameter = given.number_if_any("--diameter").value_or(sizes[sizes.size() / 2]);
   return request;
 }
 
@@ -158,34 +149,36 @@ std::vector<WholeFile> table_files(const Fitted& fitted, const ExportRequest& re
 }
 
 /// @throws InputError if --stock is given for a target that gets a table of e(V, d)
-void require_stock_model(const ExportOptions& options, ExportTarget target) {
-  if (!options.stock || !holds_all_sizes(target)) return;
-  throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
+void require_stock_model(const GivenOptions& given, ExportTarget target) {
+  if (!given.has("--stock") || !holds_all_sizes(target)) return;
+  throw InputError({}, fmt::format("--to {} has no stock model for --stock", name_of(target)),
                    "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
 
-void run_export(const ExportOptions& options) {
-  const ExportTarget target = *value_named<ExportTarget>(options.to);
-  require_stock_model(options, target);
-  require_writable_folder(options.out);
-  const Claim claim(std::filesystem::path(options.out) / "export");
-  const std::optional<FitFile> values = read_parameters(options.parameters);
-  FitInputs inputs = load_inputs(options.fit_file);
-  const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
+void run_export(const GivenOptions& given) {
+  const ExportTarget target = *value_named<ExportTarget>(given.text("--to"));
+  require_stock_model(given, target);
+  const std::filesystem::path out = given.text("--out");
+  require_writable_folder(out);
+  const Claim claim(out / "export");
+  const std::string parameters = given.text("--parameters");
+  const std::optional<FitFile> values = read_parameters(parameters);
+  FitInputs inputs = load_inputs(given.text("FIT"));
+  const std::size_t d = choose_dataset(inputs.datasets, given.text("--dataset"));
   require_rebounds(inputs.datasets[d]);
-  Fitted fitted = values ? read_fitted_values(std::move(inputs), *values, options)
-                         : fit_points(std::move(inputs), options, target == ExportTarget::table);
+  Fitted fitted = values ? read_fitted_values(std::move(inputs), *values, parameters)
+                         : fit_points(std::move(inputs), given, target == ExportTarget::table);
   const Dataset& dataset = fitted.datasets[d];
-  const ExportRequest request = request_of(options, dataset, d);
-  fitted.source.fit = options.fit_file;
+  const ExportRequest request = request_of(given, dataset, d);
+  fitted.source.fit = given.text("FIT");
   fitted.source.dataset = dataset.id;
   fitted.source.provenance = dataset.provenance;
 
   std::vector<double> sizes = distinct_diameters(dataset);
-  if (options.diameter > 0.0) sizes = {request.diameter};
+  if (given.has("--diameter")) sizes = {request.diameter};
   ExportJob job;
   job.impact = exported_impact(fitted.model, fitted.theta, request);
-  job.form = form_for(target, job.impact, options.stock);
+  job.form = form_for(target, job.impact, given.has("--stock"));
   job.force = job.impact.force;
   if (job.form == ExportForm::refitted) {
     job.refitted = refitted_force(job.impact);
@@ -200,14 +193,15 @@ void run_export(const ExportOptions& options) {
                            {d, {sizes.front(), sizes.back()}, request.slowest, request.fastest});
   }
   job.heading = export_heading(target, fitted.source, job);
-  std::vector<WholeFile> files = target == ExportTarget::table
-                                     ? table_files(fitted, request, sizes, options.analysis.threads)
-                                     : files_for(target, job);
-  for (WholeFile& file : files) file.path = options.out / file.path;
+  std::vector<WholeFile> files =
+      target == ExportTarget::table
+          ? table_files(fitted, request, sizes, static_cast<int>(given.whole("--threads")))
+          : files_for(target, job);
+  for (WholeFile& file : files) file.path = out / file.path;
   write_whole_files(files);
 
   for (const std::string& line : job.heading) print_text("{}\n", line);
-  if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
+  if (!holds_all_sizes(target) && !given.has("--diameter") && sizes.size() > 1) {
     print_line(fmt::format("note: without --diameter, {:g} um is used, the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));
   }
@@ -223,41 +217,15 @@ void run_export(const ExportOptions& options) {
 }  // namespace
 
 void add_export(Program& program) {
-  const Command command = program.command(
-      "export", "write a fitted impact as input for another program, or as a table", R"(
+  program.command("export", "write a fitted impact as input for another program, or as a table", R"(
 Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. LAMMPS and
 YADE run the force law itself, so this export is exact. LIGGGHTS gets the nearest of its own
 contact models, and the file states the error. OpenFOAM, Fluent and the table get e(V, d) with
 captures. Every file states what it leaves out.
 
   recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps
-  lmp -in my-lammps/impact.lammps -var V 2.4)");
-  const auto options = std::make_shared<ExportOptions>();
-  add_fit_file(command, options->fit_file);
-  command.option("--to", options->to, "the program").required().one_of(all_names<ExportTarget>());
-  command
-      .option("--diameter", options->diameter,
-              "sphere diameter [um] (default: the middle one of the dataset; openfoam, fluent and "
-              "table: all)")
-      .within(1e-3, 1e6, "diameter");
-  command
-      .option("--velocity", options->velocity,
-              "range of incident velocities MIN,MAX [m/s], for errors, tables and time steps "
-              "(default: that of the points)")
-      .list()
-      .values(2, 2)
-      .takes("MIN,MAX")
-      .within(1e-7, 1e4, "velocity");
-  command.flag("--stock", options->stock,
-               "lammps, yade: write the nearest of the program's own contact models, for many "
-               "spheres, instead of the force law (liggghts: always)");
-  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      .takes("ID");
-  command.option("--parameters", options->parameters, "take the values from this fit.json")
-      .takes("FILE");
-  command.option("--out", options->out, "folder for the files").required().takes("DIR");
-  add_analysis_flags(command, options->analysis);
-  command.runs([options] { run_export(*options); });
+  lmp -in my-lammps/impact.lammps -var V 2.4)",
+                  run_export);
 }
 
 }  // namespace recoil

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <iostream>
-#include <memory>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
@@ -11,7 +8,6 @@
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "core/random.hpp"
-#include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "data/text.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -25,72 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct InitOptions {
-  std::string folder;
-  std::string particle, surface, like;
-  std::string points;
-  std::string provenance;
-  double diameter = 0.0;  // [um]
-};
-
-constexpr const char* init_fit =
-    R"toml(# Made by recoil init. Every key with its default: recoil help fit-file
-dataset = "."
-
-[parameters]
-C_H = { initial = 3e-3 }                      # damping of the elastic contact [s/m]
-C_A = { initial = 3e-2, bounds = [0, 10] }    # damping of the adhesion [s/m]
-f0 = { free = false }                         # adhesion per length [N/m]: from the materials
-
-[uncertainty]
-replicates = 1999    # of the bootstrap
-)toml";
-
-/// Asks a question on the terminal. @returns the answer, or `otherwise` if it is empty
-std::string ask(const std::string& question, const std::string& otherwise = "") {
-  print_text("{}{}: ", question, otherwise.empty() ? "" : fmt::format(" [{}]", otherwise));
-  std::fflush(stdout);
-  std::string answer;
-  if (!std::getline(std::cin, answer))
-    throw InputError({}, "the input ended before all questions were answered", "", "");
-  return answer.empty() ? otherwise : answer;
-}
-
-std::string ask_for_material(const std::string& which, bool density) {
-  std::string words = fmt::format("material={}", ask(which + ": material, as a word"));
-  if (density) words += fmt::format(",density={}", ask("  density [kg/m3]"));
-  words += fmt::format(",youngs_modulus={}", ask("  Young's modulus [Pa]"));
-  words += fmt::format(",poisson_ratio={}", ask("  Poisson's ratio"));
-  return words;
-}
-
-/// Asks for missing options on a terminal. Otherwise `import_points` reports them.
-void ask_for_missing(InitOptions& options) {
-  if (isatty(STDIN_FILENO) == 0) return;
-  if (options.like.empty()) {
-    if (options.particle.empty()) options.particle = ask_for_material("the spheres", true);
-    if (options.surface.empty()) options.surface = ask_for_material("the surface", false);
-  }
-  if (options.points.empty()) {
-    options.points = ask(
-        "a CSV file with the columns incident_velocity [m/s] and restitution (none: an example)");
-  }
-  if (!options.points.empty() && options.provenance.empty()) {
-    options.provenance = ask("were these points measured or digitised?", "measured");
-  }
-  if (options.diameter <= 0.0) {
-    const std::string answer = ask("diameter of the spheres [um]", "5");
-    options.diameter = parse_number(answer).value_or(0.0);
-    if (!(options.diameter > 0.0) || !(options.diameter < 1e6)) {
-      throw InputError({}, fmt::format("'{}' is not a diameter", answer), "",
-                       "give a number in um");
-    }
-  }
-}
-
 /// Example points, computed from the model.
 std::string example_points(const Dataset& dataset, double diameter) {
-  FitSpec spec = parse_fit(init_fit, "fit.toml");
+  FitSpec spec = parse_fit(new_fit_file, "fit.toml");
   const ImpactModel model = make_model(spec, {dataset});
   const std::vector<double> theta = model.initial();
   const CaptureVelocity capture = capture_velocity(model, theta, 0, diameter);
@@ -140,8 +73,9 @@ Dataset make_example(ImportRequest request, double diameter) {
   return import_points(request).dataset;
 }
 
-void run_init(InitOptions options) {
-  const fs::path folder = options.folder;
+void run_init(const GivenOptions& given) {
+  const fs::path folder = given.text("DIR");
+  const std::string points = given.text("--points");
   const fs::path fit_file = folder / "fit.toml";
   for (const fs::path& file : {folder / package_file_name, folder / "points.csv", fit_file}) {
     if (fs::exists(file)) {
@@ -150,34 +84,38 @@ void run_init(InitOptions options) {
     }
   }
   require_writable_folder(folder);
-  ask_for_missing(options);
   const Claim claim(folder / "points.csv");
   ImportRequest request;
   request.format = ImportFormat::csv;
   request.usual_units = true;
   request.into = folder;
-  request.particle = options.particle;
-  request.surface = options.surface;
-  request.like = options.like;
-  if (options.diameter > 0.0) request.diameters = {fmt::format("{:g}um", options.diameter)};
+  request.particle = given.text("--particle");
+  request.surface = given.text("--surface");
+  request.like = given.text("--like");
+  request.diameters = given.texts("--diameter");
   NewFiles made({folder / package_file_name, folder / "points.csv", fit_file});
   ImportResult result;
-  if (options.points.empty()) {
-    if (options.diameter <= 0.0) {
+  if (points.empty()) {
+    if (given.has("--sheet")) {
+      throw InputError({}, "--sheet without --points", "it chooses a sheet of the points",
+                       "name a workbook with --points, or leave --sheet out");
+    }
+    if (!given.has("--diameter")) {
       throw InputError({}, "the diameter of the spheres is not known", "",
                        "give --diameter 5, or points with a column diameter");
     }
-    result.dataset = make_example(request, options.diameter * units::um);
+    result.dataset = make_example(request, given.number("--diameter"));
   } else {
-    request.file = options.points;
-    request.provenance = value_named<Provenance>(options.provenance);
+    request.file = points;
+    request.sheet = given.text("--sheet");
+    request.provenance = value_named<Provenance>(given.text("--provenance"));
     result = import_points(request);
   }
-  write_whole_file(fit_file, init_fit);
+  write_whole_file(fit_file, new_fit_file);
   load_inputs(fit_file);  // throws if the files are not valid
   made.keep();
   print_text("{}: {}{}\n", folder.string(), counted(result.dataset.points.size(), "point"),
-             options.points.empty()
+             points.empty()
                  ? ", SYNTHETIC: computed from the model, with noise. Write your points to "
                    "points.csv and their provenance to datapackage.json"
                  : "");
@@ -192,35 +130,16 @@ void run_init(InitOptions options) {
 }  // namespace
 
 void add_init(Program& program) {
-  const Command command = program.command("init", "make a new dataset folder and a fit file", R"(
-On a terminal, init asks for what the options leave out. Without --points the folder gets
-example points, which the model computes and which are labelled synthetic. Nothing is
-overwritten. For figures, drop heights and bounce times: recoil help import.
+  program.command("init", "make a new dataset folder and a fit file", R"(
+Without --points the folder gets example points, which the model computes and which are
+labelled synthetic. Nothing is overwritten. For figures, drop heights and bounce times: recoil
+import.
 
   recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
-  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \
+  recoil init my-spheres --points measured.csv --diameter 5 \
     --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 \
-    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28)");
-  const auto options = std::make_shared<InitOptions>();
-  command.option("DIR", options->folder, "the new folder").required();
-  command
-      .option("--points", options->points,
-              "the points (CSV) with incident_velocity, restitution and any other column of recoil "
-              "help data (default: example points)")
-      .takes("FILE");
-  command
-      .option("--provenance", options->provenance,
-              "where these points come from: measured or digitised")
-      .one_of({"measured", "digitised"});
-  command.option("--particle", options->particle,
-                 "the sphere: a name (recoil materials), a JSON file, or "
-                 "material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command.option("--surface", options->surface,
-                 "the surface, in the same form; its density may be left out");
-  command.option("--like", options->like, "take the materials of this dataset").takes("DIR");
-  command.option("--diameter", options->diameter, "diameter of all spheres [um]")
-      .within(1e-3, 1e6, "diameter");
-  command.runs([options] { run_init(*options); });
+    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28)",
+                  run_init);
 }
 
 }  // namespace recoil

@@ -13,33 +13,27 @@
 namespace recoil {
 namespace {
 
-struct PredictOptions : CommonFlags {
-  std::string sizes;
-  std::string unit;
-  std::optional<double> height;  // [mm]
-  bool midpoints = false;
-};
-
-void run_predict(const PredictOptions& options) {
-  if (!options.out.empty()) require_writable_folder(options.out);
-  const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
-  const AnalysisOptions resolved = options.analysis.resolved();
-  FitInputs inputs = load_inputs(options.fit_file);
-  const std::filesystem::path out = options.out;
+void run_predict(const GivenOptions& given) {
+  const std::filesystem::path out = given.text("--out");
+  if (!out.empty()) require_writable_folder(out);
+  const MeasuredSizes sizes = load_sizes(given.text("--sizes"), given.text("--unit"));
+  const std::string dataset = given.text("--dataset");
+  const AnalysisOptions resolved = analysis_options(given);
+  FitInputs inputs = load_inputs(given.text("FIT"));
   std::optional<Claim> claim;
-  if (!options.out.empty()) {
+  if (!out.empty()) {
     require_free({out / "predict.csv", out / "predict.json"});
     claim.emplace(out / "predict.json");
   }
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  choose_dataset(analysis.datasets, options.dataset);  // throws before the bootstrap
+  choose_dataset(analysis.datasets, dataset);  // throws before the bootstrap
   analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets,
                                         uncertainty_options(analysis.spec, resolved));
-  const PolydispersePrediction mixture =
-      predict_sizes(analysis, sizes, options.height, options.midpoints, options.dataset);
+  const PolydispersePrediction mixture = predict_sizes(
+      analysis, sizes, given.number_if_any("--height"), given.has("--midpoints"), dataset);
   const std::string result = json_prediction(analysis, mixture);
-  const std::string printed = options.json ? result : text_prediction(analysis, mixture);
-  if (!options.out.empty()) {
+  const std::string printed = given.has("--json") ? result : text_prediction(analysis, mixture);
+  if (!out.empty()) {
     write_or_print(
         {{out / "predict-average.svg", plot::draw_svg(mixture_figure(analysis, mixture).picture)},
          {out / "predict.csv", csv_prediction(mixture)},
@@ -47,8 +41,8 @@ void run_predict(const PredictOptions& options) {
         printed);
   }
   print_text("{}", printed);
-  if (!options.height && !sizes.probe_height) {
-    print_text(options.json ? stderr : stdout,
+  if (!given.has("--height") && !sizes.probe_height) {
+    print_text(given.has("--json") ? stderr : stdout,
                "note: without --height, the {:g} mm of Li, Dunn & Brach (1999) is used\n",
                mixture.probe_height / units::mm);
   }
@@ -57,35 +51,14 @@ void run_predict(const PredictOptions& options) {
 }  // namespace
 
 void add_predict(Program& program) {
-  const Command command =
-      program.command("predict", "predict the mean restitution of a mixture of sizes", R"(
+  program.command("predict", "predict the mean restitution of a mixture of sizes", R"(
 Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter and
 count) under three conventions: captured spheres count as e = 0; captured spheres are left out;
 captured spheres and those too slow to return to the measuring plane are left out. With --out it
 writes predict.csv, predict.json and a picture.
 
-  recoil predict fits/li1999-sst65-silicon.toml --sizes datasets/li1999-sst65-silicon/sizes.csv)");
-  const auto options = std::make_shared<PredictOptions>();
-  add_fit_file(command, options->fit_file);
-  command.option("--sizes", options->sizes, "the size distribution (CSV)").required().takes("FILE");
-  command.option("--unit", options->unit,
-                 "unit of its diameters: um, mm or m (default: from the datapackage.json beside "
-                 "it, otherwise um)");
-  command
-      .option("--height", options->height,
-              "height of the measuring plane above the surface [mm] (default: from the "
-              "datapackage.json beside it, otherwise 1)")
-      .within(0.0, 1000.0);
-  command.flag("--midpoints", options->midpoints,
-               "place all spheres of a bin at its midpoint, as in the paper (default: spread them "
-               "over the bin)");
-  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      .takes("ID");
-  command.option("--out", options->out, "folder for the files (default: none are written)")
-      .takes("DIR");
-  add_analysis_flags(command, options->analysis);
-  add_json_flag(command, options->json);
-  command.runs([options] { run_predict(*options); });
+  recoil predict fits/li1999-sst65-silicon.toml --sizes datasets/li1999-sst65-silicon/sizes.csv)",
+                  run_predict);
 }
 
 }  // namespace recoil

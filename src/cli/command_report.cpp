@@ -27,15 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ReportOptions {
-  std::vector<std::string> fits;
-  std::string out = "reports";
-  bool force = false;
-  AnalysisFlags analysis;
-};
-
-std::vector<fs::path> fits_to_report(const ReportOptions& options) {
-  if (!options.fits.empty()) return {options.fits.begin(), options.fits.end()};
+std::vector<fs::path> fits_to_report(const GivenOptions& given) {
+  const std::vector<std::string> named = given.texts("FIT");
+  if (!named.empty()) return {named.begin(), named.end()};
   std::vector<fs::path> files = files_in("fits", ".toml");
   if (files.empty()) {
     throw InputError({"fits"}, "there are no fit files here",
@@ -67,7 +61,7 @@ void require_distinct_pages(const std::vector<fs::path>& fits) {
 }
 
 /// A hash of everything that a page depends on: program, fit file, data, options.
-std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
+std::string fingerprint(const FitInputs& inputs, const GivenOptions& given) {
   std::string text = inputs.spec.sha256;
   for (const Dataset& dataset : inputs.datasets) {
     text += dataset.sha256;
@@ -76,23 +70,23 @@ std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
     }
     if (const auto sizes = sizes_of_dataset(dataset.folder)) text += sizes->sha256;
   }
-  text += fmt::format("|{}|{}|{}|{}|{}", flags.replicates, flags.scheme, flags.seed, flags.solver,
-                      program_stamp());
+  text +=
+      fmt::format("|{}|{}|{}", given.text("--replicates"), given.text("--seed"), program_stamp());
   return sha256_hex(text) + "\n";
 }
 
 /// Diagnoses a fit and adds the fits under every law to `analysis`. Both run at the same time,
 /// because a diagnosis does not use all threads.
-Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
+Diagnosis diagnose_for_report(Analysis& analysis, int threads,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
   options.kept = kept;
   options.seed = analysis.uncertainty.options.seed;
-  options.threads = flags.threads;
+  options.threads = threads;
   Diagnosis diagnosis = resumable(*kept, [&] {
     Diagnosis result;
     at_once(
-        flags.threads,
+        threads,
         [&] {
           result = diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
                             analysis.uncertainty.intervals);
@@ -136,23 +130,23 @@ IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
   return entry;
 }
 
-IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::string& expected,
+IndexEntry make_page(FitInputs inputs, const GivenOptions& given, const std::string& expected,
                      const PageFiles& files, IndexEntry entry) {
   // A page continues an earlier, stopped run with the same inputs.
   const auto kept_for = [&](const fs::path& result) {
     return std::make_shared<KeptRows>(unfinished_beside(result),
                                       expected + arithmetic_fingerprint());
   };
-  AnalysisOptions resolved = flags.resolved();
+  AnalysisOptions resolved = analysis_options(given);
   resolved.kept = kept_for(files.json);
   Analysis analysis =
       resumable(*resolved.kept, [&] { return analyse(std::move(inputs), resolved); });
   add_predictions(analysis);
   const std::shared_ptr<KeptRows> kept = kept_for(files.diagnosed);
-  const Diagnosis diagnosis = diagnose_for_report(analysis, flags, kept);
+  const Diagnosis diagnosis = diagnose_for_report(analysis, resolved.threads, kept);
   std::string page, diagnosis_page;
   at_once(
-      flags.threads, [&] { page = fit_html(analysis, &diagnosis, entry.diagnosis_page); },
+      resolved.threads, [&] { page = fit_html(analysis, &diagnosis, entry.diagnosis_page); },
       [&] { diagnosis_page = diagnosis_html(diagnosis); },
       [&] {
         const plot::Picture picture = thumbnail(analysis);
@@ -176,10 +170,10 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   return entry;
 }
 
-void report(const ReportOptions& options) {
-  const fs::path out = options.out;
+void report(const GivenOptions& given) {
+  const fs::path out = given.text("--out");
   require_writable_folder(out);
-  const std::vector<fs::path> fits = fits_to_report(options);
+  const std::vector<fs::path> fits = fits_to_report(given);
   require_distinct_pages(fits);
   std::vector<IndexEntry> entries;
   for (const fs::path& fit : fits) {
@@ -187,17 +181,16 @@ void report(const ReportOptions& options) {
     const PageFiles files(out, id);
     FitInputs inputs = load_inputs(fit);
     require_free({files.page, files.folder / "extended.toml"});
-    const std::string expected = fingerprint(inputs, options.analysis);
+    const std::string expected = fingerprint(inputs, given);
     IndexEntry entry;
     entry.page = url_path(id + ".html");
     entry.diagnosis_page = url_path(id + "/diagnosis.html");
-    const bool current = files.are_current(expected) && !options.force;
+    const bool current = files.are_current(expected) && !given.has("--force");
     if (current) {
       entries.push_back(read_page(files, std::move(entry)));
     } else {
       const Claim claim(files.json);
-      entries.push_back(
-          make_page(std::move(inputs), options.analysis, expected, files, std::move(entry)));
+      entries.push_back(make_page(std::move(inputs), given, expected, files, std::move(entry)));
     }
     print_text("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
@@ -209,18 +202,13 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(Program& program) {
-  const Command command = program.command("report", "write a page for every fit, and an index", R"(
+  program.command("report", "write a page for every fit, and an index", R"(
 Writes one page per fit and index.html. A page needs no other file. Pages whose inputs have
 not changed are kept.
 
   recoil report                      every fits/*.toml into reports/
-  recoil report my.toml --out pages  one fit)");
-  const auto options = std::make_shared<ReportOptions>();
-  add_fit_files(command, options->fits, "fit files (default: fits/*.toml)");
-  command.option("--out", options->out, "folder for the pages").shows_default().takes("DIR");
-  command.flag("--force", options->force, "write every page again, even if nothing has changed");
-  add_analysis_flags(command, options->analysis);
-  command.runs([options] { report(*options); });
+  recoil report my.toml --out pages  one fit)",
+                  report);
 }
 
 }  // namespace recoil

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
@@ -23,12 +22,6 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t indent = 2;  // of tables
-
-struct SimulateOptions : CommonFlags {
-  double velocity = 0.0;  // [m/s]
-  double diameter = 0.0;  // [um]
-  std::string history;
-};
 
 std::string history_csv(const SimulatedImpact& simulated) {
   const std::vector<HistoryColumn> columns = history_columns(simulated);
@@ -213,32 +206,33 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
   return table;
 }
 
-void simulate(const SimulateOptions& options) {
-  if (!options.history.empty()) {
-    require_writable_folder(std::filesystem::absolute(options.history).parent_path());
+void simulate(const GivenOptions& given) {
+  const std::string history = given.text("--history");
+  const std::string parameters = given.text("--parameters");
+  if (!history.empty()) {
+    require_writable_folder(std::filesystem::absolute(history).parent_path());
   }
-  const std::optional<FitFile> fitted = read_parameters(options.parameters);
-  const FitSpec spec = with_fitted_loss(load_fit(options.fit_file), fitted);
+  const std::optional<FitFile> fitted = read_parameters(parameters);
+  const FitSpec spec = with_fitted_loss(load_fit(given.text("FIT")), fitted);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);
-  if (fitted) take_fitted_values(model, datasets, *fitted, options.parameters);
-  if (!options.history.empty()) require_free({options.history});
-  const std::size_t d = choose_dataset(datasets, options.dataset);
-  const PointConditions at = {d, options.diameter * units::um, options.velocity};
+  if (fitted) take_fitted_values(model, datasets, *fitted, parameters);
+  if (!history.empty()) require_free({history});
+  const std::size_t d = choose_dataset(datasets, given.text("--dataset"));
+  const PointConditions at = {d, given.number("--diameter"), given.number("--velocity")};
   const SimulatedImpact simulated = simulate_at(model, datasets, at);
-  if (!options.history.empty()) write_whole_file(options.history, history_csv(simulated));
-  if (options.json) {
-    print_text("{}",
-               simulation_json(model, datasets, simulated, spec.id,
-                               options.parameters.empty() ? "the initial values of the fit file"
-                                                          : options.parameters));
+  if (!history.empty()) write_whole_file(history, history_csv(simulated));
+  if (given.has("--json")) {
+    print_text("{}", simulation_json(
+                         model, datasets, simulated, spec.id,
+                         parameters.empty() ? "the initial values of the fit file" : parameters));
     return;
   }
   const ImpactConditions start = conditions_at(model, model.initial(), d, at.diameter, at.velocity);
   print_text("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
-             options.parameters.empty()
+             parameters.empty()
                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
-                 : "from " + options.parameters,
+                 : "from " + parameters,
              start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);
@@ -261,27 +255,11 @@ void simulate(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(Program& program) {
-  const Command command = program.command(
-      "simulate", "simulate one impact, with its energy budget and force history", R"(
+  program.command("simulate", "simulate one impact, with its energy budget and force history", R"(
 Uses the initial values of the fit file, or with --parameters the values of a fit.json.
 
-  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)");
-  const auto options = std::make_shared<SimulateOptions>();
-  add_fit_file(command, options->fit_file);
-  command.option("--velocity", options->velocity, "incident velocity [m/s]")
-      .required()
-      .within(velocity_limits.first, velocity_limits.second, "velocity");
-  command.option("--diameter", options->diameter, "sphere diameter [um]")
-      .required()
-      .within(diameter_limits_um.first, diameter_limits_um.second, "diameter");
-  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      .takes("ID");
-  command.option("--parameters", options->parameters, "take the values from this fit.json")
-      .takes("FILE");
-  command.option("--history", options->history, "write the forces against time (CSV)")
-      .takes("FILE");
-  add_json_flag(command, options->json);
-  command.runs([options] { simulate(*options); });
+  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history forces.csv)",
+                  simulate);
 }
 
 }  // namespace recoil

@@ -1,6 +1,3 @@
-
-#include <memory>
-
 #include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -15,61 +12,59 @@
 namespace recoil {
 
 void add_check(Program& program) {
-  const Command command =
-      program.command("check", "validate a dataset folder and show its contents", R"(
+  program.command("check", "validate a dataset folder and show its contents", R"(
 Reads datapackage.json and the points that it names, converts the units and prints the result.
 If a file contains an error, recoil prints one line:
   file:line:column: problem (why it is one); suggestion
 
-  recoil check datasets/dahneke1975-quartz)");
-  const auto folder = std::make_shared<std::string>();
-  command.option("DIR", *folder, "the dataset's folder").required();
-  command.runs([folder] { print_text("{}", dataset_text(load_dataset(*folder))); });
+  recoil check datasets/dahneke1975-quartz)",
+                  [](const GivenOptions& given) {
+                    print_text("{}", dataset_text(load_dataset(given.text("DIR"))));
+                  });
 }
 
 void add_compare(Program& program) {
-  const Command command = program.command(
+  program.command(
       "compare", "compare fits of the same data, for example with different laws of adhesion", R"(
 Reads the fit.json files that `recoil fit FIT --out DIR` writes. AICc needs data with stated
 standard deviations. The column "held out" is the error at diameters left out of the fit.
 
-  recoil compare ring/fit.json jkr/fit.json dmt/fit.json)");
-  const auto files = std::make_shared<std::vector<std::string>>();
-  command.option("FIT.json", *files, "two or more fit.json of the same datasets")
-      .required()
-      .values(2, 100);
-  const auto json = std::make_shared<bool>(false);
-  add_json_flag(command, *json);
-  command.runs([files, json] {
-    std::vector<ComparedFit> fits;
-    for (const std::string& file : *files) fits.push_back(compared_fit(file, read_text_file(file)));
-    fits = told_apart(std::move(fits));
-    print_text("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
-  });
+  recoil compare ring/fit.json jkr/fit.json dmt/fit.json)",
+      [](const GivenOptions& given) {
+        std::vector<ComparedFit> fits;
+        for (const std::string& file : given.texts("FIT.json")) {
+          fits.push_back(compared_fit(file, read_text_file(file)));
+        }
+        fits = told_apart(std::move(fits));
+        print_text("{}", given.has("--json") ? comparison_json(fits)
+                                             : terminal_text(comparison_sections(fits)));
+      });
 }
 
 void add_materials(Program& program) {
-  const Command command = program.command(
+  program.command(
       "materials", "list the materials that --particle and --surface know by name", R"(
 import and init take --particle NAME and --surface NAME; NAME,key=value changes a
 constant. The constants enter the dataset with their errors.
 
   recoil import drops.csv --format heights --into ball --particle steel --surface glass ...
-  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70)");
-  command.runs([] {
-    print_text("{:<16}{:>16}{:>20}{:>18}  {}\n", "name", "density [kg/m3]", "E [GPa]", "nu", "");
-    for (const TabledMaterial& one : tabled_materials()) {
-      print_text("{:<16}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}  {}\n",
-                 one.name, one.density, tabled_density_error * one.density,
-                 one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
-                 one.poisson_ratio, one.poisson_ratio_sd, one.what);
-    }
-    print_text(
-        "Source: {}.\n"
-        "Errors are one standard deviation: a range of Young's modulus is taken as uniform. For a "
-        "single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
-        tabled_materials_source);
-  });
+  recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70)",
+      [](const GivenOptions&) {
+        print_text("{:<16}{:>16}{:>20}{:>18}  {}\n", "name", "density [kg/m3]", "E [GPa]", "nu",
+                   "");
+        for (const TabledMaterial& one : tabled_materials()) {
+          print_text("{:<16}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}  {}\n",
+                     one.name, one.density, tabled_density_error * one.density,
+                     one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
+                     one.poisson_ratio, one.poisson_ratio_sd, one.what);
+        }
+        print_text(
+            "Source: {}.\n"
+            "Errors are one standard deviation: a range of Young's modulus is taken as uniform. "
+            "For a "
+            "single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
+            tabled_materials_source);
+      });
 }
 
 }  // namespace recoil

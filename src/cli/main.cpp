@@ -60,8 +60,8 @@ int run(const std::vector<std::string>& words) {
       "parameters are and what the model gets wrong. Start with: recoil init DIR, then recoil fit "
       "FIT.",
       "Exit status: 0 success, 2 error in the input or on the command line, 3 no usable result.\n"
-      "recoil COMMAND --help shows options and examples; recoil help lists the pages of the "
-      "manual.",
+      "recoil COMMAND --help shows options and examples. The manual is docs/README.md, in an\n"
+      "installation share/doc/recoil/README.md.",
       version());
   add_commands(program);
   try {

@@ -41,24 +41,48 @@ std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 /// The options of these commands.
 std::string commands_table(const Program& program, const std::vector<std::string>& names) {
   std::string out;
-  for (const Command& command : program.commands()) {
-    if (std::find(names.begin(), names.end(), command.name()) == names.end()) continue;
+  for (const Program::CommandText& command : program.commands()) {
+    if (std::ranges::find(names, command.name) == names.end()) continue;
     std::string arguments;
     std::string rows;
-    for (const OptionText& option : command.options()) {
-      if (!option.name.starts_with('-')) {
-        arguments += option.required
-                         ? " " + option.name
-                         : fmt::format(" [{}{}]", option.name, option.several ? "..." : "");
+    for (const OptionRow* option : options_of(command.name)) {
+      if (option->is_hidden()) continue;
+      if (option->is_argument()) {
+        arguments += option->is_required()
+                         ? fmt::format(" {}", option->name)
+                         : fmt::format(" [{}{}]", option->name, option->type.most > 1 ? "..." : "");
       }
-      rows += fmt::format("| {} | {} | {} |\n", code(option.name), literal(option.takes),
-                          literal(option.meaning));
+      rows += fmt::format("| {} | {} | {} |\n", code(option->name),
+                          literal(option->is_argument() ? "" : value_words(option->type)),
+                          literal(meaning_words(*option)));
     }
-    out += fmt::format("{}## recoil {}{}\n\n{}.\n", out.empty() ? "" : "\n", command.name(),
-                       arguments, capitalised(command.meaning()));
+    out += fmt::format("{}## recoil {}{}\n\n{}.\n", out.empty() ? "" : "\n", command.name,
+                       arguments, capitalised(command.meaning));
     if (!rows.empty()) out += "\n| option | takes | meaning |\n|---|---|---|\n" + rows;
   }
   return out;
+}
+
+// ---- Python ------------------------------------------------------------------------------------
+
+/// The default of a keyword argument as Python.
+std::string python_default(const OptionRow& row) {
+  if (row.type.is_flag()) return "False";
+  if (row.default_text().empty()) return "None";
+  if (row.type.is_number()) return std::string(row.standard);
+  return fmt::format("\"{}\"", row.standard);
+}
+
+/// The keyword arguments of a function of Python, one per line.
+std::string python_arguments(const std::string& function, const std::string& before) {
+  std::string lines;
+  for (const OptionRow* row : arguments_of(function)) {
+    const std::string value = python_default(*row);
+    const std::string& type = row->type.python;
+    lines += fmt::format("{}    {}: {} = {},\n", before, row->python,
+                         value == "None" ? fmt::format("Optional[{}]", type) : type, value);
+  }
+  return lines;
 }
 
 // ---- catalogue ---------------------------------------------------------------------------------
@@ -263,19 +287,24 @@ std::string json_table(std::string_view result, std::string_view keys) {
   return rows.empty() ? rows : "| key | meaning |\n|---|---|\n" + rows;
 }
 
-/// A table of the manual.
-struct ManualTable {
-  const char* name;
+/// A part that the code makes.
+struct MadePart {
+  std::string name;
   std::function<std::string(const Program&)> text;
 };
 
 template <class Text>
-ManualTable table(const char* name, const Text& text) {
+MadePart table(const char* name, const Text& text) {
   return {name, [text](const Program&) { return text(); }};
 }
 
-const std::vector<ManualTable>& tables() {
-  static const std::vector<ManualTable> all = {
+MadePart arguments(const std::string& function, const std::string& before) {
+  return {fmt::format("arguments of {}", function),
+          [=](const Program&) { return python_arguments(function, before); }};
+}
+
+const std::vector<MadePart>& parts() {
+  static const std::vector<MadePart> all = {
       {"commands for data",
        [](const Program& program) {
          return commands_table(program, {"check", "init", "import", "materials"});
@@ -307,62 +336,61 @@ const std::vector<ManualTable>& tables() {
       table("mechanisms of the contact", [] { return mechanism_details_table(Where::contact); }),
       table("mechanisms of the adhesion", [] { return mechanism_details_table(Where::adhesion); }),
       table("units", units_table),
-      table("limits", limits_table)};
+      table("limits", limits_table),
+      arguments("fit", ""),
+      arguments("model", ""),
+      arguments("coverage", ""),
+      arguments("pair", ""),
+      arguments("diagnose", "    "),
+      arguments("predict", "    ")};
   return all;
 }
 
-/// The table `name`; "JSON fit: goodness, noise" lists keys of a result. Empty if there is none.
-std::string table_text(std::string_view name, const Program& program) {
+/// The part `name`; "JSON fit: goodness, noise" lists keys of a result. Empty if there is none.
+std::string text_of_part(std::string_view name, const Program& program) {
   constexpr std::string_view json = "JSON ";
   if (name.starts_with(json)) {
     const std::size_t end = std::min(name.find(": "), name.size());
     return json_table(name.substr(json.size(), end - json.size()),
                       name.substr(std::min(end + 2, name.size())));
   }
-  for (const ManualTable& table : tables()) {
-    if (table.name == name) return table.text(program);
+  for (const MadePart& part : parts()) {
+    if (part.name == name) return part.text(program);
   }
   return {};
 }
 
 }  // namespace
 
-std::string_view ManualPage::title() const {
-  const std::string_view line = text.substr(0, text.find('\n'));
-  return line.substr(std::min(line.find_first_not_of("# "), line.size()));
-}
-
-std::vector<std::string> manual_table_names() {
-  std::vector<std::string> names;
-  for (const ManualTable& table : tables()) names.emplace_back(table.name);
-  return names;
-}
-
-std::string with_manual_tables(const std::string& page, const std::string& file,
-                               const Program& program) {
-  const std::string begin = "<!-- made by ./run docs: ";
-  const std::string begin_end = " -->\n";
-  const std::string end = "<!-- end -->";
+std::string with_made_parts(const std::string& text, const std::string& file,
+                            const Program& program) {
+  const bool python = file.ends_with(".py");
+  const std::string begin = python ? "# made by ./run docs: " : "<!-- made by ./run docs: ";
+  const std::string begin_end = python ? "\n" : " -->\n";
+  const std::string end = python ? "# end" : "<!-- end -->";
   std::string out;
   std::size_t at = 0;
-  for (std::size_t found; (found = page.find(begin, at)) != std::string::npos;) {
+  for (std::size_t found; (found = text.find(begin, at)) != std::string::npos;) {
     const std::size_t name_at = found + begin.size();
-    const std::size_t name_end = page.find(begin_end, name_at);
-    const std::size_t last = page.find(end, found);
+    const std::size_t name_end = text.find(begin_end, name_at);
+    std::size_t last = text.find(end, found);
     if (name_end == std::string::npos || last == std::string::npos) {
-      throw InputError({file}, "a table has no end", "its text is replaced",
-                       "write <!-- end --> after it");
+      throw InputError({file}, "a part that the code makes has no end", "its text is replaced",
+                       fmt::format("write {} after it", end));
     }
-    const std::string name = page.substr(name_at, name_end - name_at);
-    const std::string text = table_text(name, program);
-    if (text.empty()) {
-      throw InputError({file}, fmt::format("unknown table {}", quote(name)),
-                       "nothing in the code makes it", did_you_mean(name, manual_table_names()));
+    while (text[last - 1] == ' ') --last;  // the indent of the mark
+    const std::string name = text.substr(name_at, name_end - name_at);
+    const std::string made = text_of_part(name, program);
+    if (made.empty()) {
+      std::vector<std::string> names;
+      for (const MadePart& part : parts()) names.push_back(part.name);
+      throw InputError({file}, fmt::format("unknown part {}", quote(name)),
+                       "nothing in the code makes it", did_you_mean(name, names));
     }
-    out += page.substr(at, name_end + begin_end.size() - at) + text;
+    out += text.substr(at, name_end + begin_end.size() - at) + made;
     at = last;
   }
-  return out + page.substr(at);
+  return out + text.substr(at);
 }
 
 }  // namespace recoil

@@ -335,6 +335,17 @@ void require_writable_folder(const std::filesystem::path& folder) {
   }
 }
 
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
+                                            const std::string& extension) {
+  std::vector<std::filesystem::path> files;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 std::string hash_hex(std::string_view algorithm, std::string_view bytes) {
   constexpr std::array<std::pair<std::string_view, char* (*)(const uint8_t*, size_t, char*)>, 4>
       known = {

@@ -71,6 +71,10 @@ InputError cannot_be_written(const std::filesystem::path& path, int failed);
 /// @throws InputError if it is a file, or if the nearest existing folder above it is read-only
 void require_writable_folder(const std::filesystem::path& folder);
 
+/// The files with this extension in a folder, sorted; empty if the folder cannot be read.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
+                                            const std::string& extension);
+
 /// A hash of `bytes` as lower-case hexadecimal digits. @param algorithm md5 (RFC 1321), sha1,
 /// sha256 or sha512 (FIPS 180-4); the hash by another one is empty
 std::string hash_hex(std::string_view algorithm, std::string_view bytes);

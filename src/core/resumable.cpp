@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/numbers.hpp"
 #include "core/parallel.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
@@ -28,14 +29,6 @@ constexpr std::pair<const char*, const char*> differences[] = {
     {"inputs", "the fit file or the data have changed between them"},
     {"arithmetic", "their processors give different digits"},
     {"start", "their fits differ in digits"}};
-
-std::optional<std::size_t> count_named(std::string_view text) {
-  std::size_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end) return std::nullopt;
-  return value;
-}
 
 /// The first line of a part.
 struct PartHead {
@@ -69,10 +62,12 @@ std::optional<Part> part_in(const fs::path& file) {
 std::optional<Shard> shard_named(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
-  const auto number = count_named(text.substr(0, slash));
-  const auto of = count_named(text.substr(slash + 1));
-  if (!number || !of || *number < 1 || *number > *of || *of > most_shards) return std::nullopt;
-  return Shard{*number, *of};
+  const auto number = parse_whole_number(text.substr(0, slash));
+  const auto of = parse_whole_number(text.substr(slash + 1));
+  if (!number || !of || *number < 1 || *number > *of || *of > std::int64_t{most_shards}) {
+    return std::nullopt;
+  }
+  return Shard{static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
 }
 
 void resumable(const Pieces& pieces, KeptRows& kept, const Shard& shard) {

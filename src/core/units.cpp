@@ -1,5 +1,8 @@
 #include "core/units.hpp"
 
+#include <algorithm>
+#include <numbers>
+
 namespace recoil {
 namespace {
 
@@ -37,6 +40,8 @@ constexpr Unit known_units[] = {
     {Dimension::pressure, "Pa", 1.0},
     {Dimension::pressure, "hPa", 100.0},
     {Dimension::pressure, "kPa", 1e3},
+    {Dimension::pressure, "MPa", 1e6},
+    {Dimension::pressure, "GPa", units::GPa},
     {Dimension::pressure, "mbar", 100.0},
     {Dimension::pressure, "bar", 1e5},
     {Dimension::pressure, "atm", 101325.0},
@@ -46,6 +51,19 @@ constexpr Unit known_units[] = {
     {Dimension::temperature, "°C", 1.0},
     {Dimension::temperature, "degF", 5.0 / 9.0},
     {Dimension::temperature, "°F", 5.0 / 9.0},
+    {Dimension::density, "kg/m3", 1.0},
+    {Dimension::density, "g/cm3", 1e3},
+    {Dimension::energy_per_area, "J/m2", 1.0},
+    {Dimension::energy_per_area, "mJ/m2", 1e-3},
+    {Dimension::force_per_length, "N/m", 1.0},
+    {Dimension::acceleration, "m/s2", 1.0},
+    {Dimension::inverse_velocity, "s/m", 1.0},
+    {Dimension::frequency, "1/s", 1.0},
+    {Dimension::frequency, "Hz", 1.0},
+    {Dimension::frequency, "fps", 1.0},
+    {Dimension::angle, "rad", 1.0},
+    {Dimension::angle, "deg", std::numbers::pi / 180.0},
+    {Dimension::angle, "°", std::numbers::pi / 180.0},
 };
 
 }  // namespace
@@ -63,6 +81,13 @@ std::vector<std::string> unit_names(Dimension dimension) {
     if (known.dimension == dimension) names.emplace_back(known.name);
   }
   return names;
+}
+
+std::string si_unit(Dimension dimension) {
+  const auto* const found = std::ranges::find_if(known_units, [&](const Unit& unit) {
+    return unit.dimension == dimension && unit.factor == 1.0;
+  });
+  return std::string(found->name);
 }
 
 std::optional<Dimension> dimension_of_unit(std::string_view unit) {

@@ -29,11 +29,28 @@ constexpr double in_um(double metres) { return metres / units::um; }
 inline constexpr double standard_gravity = 9.80665;
 
 /// What a column of a data file or a value on the command line measures. Texts have no unit.
-enum class Dimension { text, count, ratio, length, velocity, time, pressure, temperature };
+enum class Dimension {
+  text,
+  count,
+  ratio,
+  length,
+  velocity,
+  time,
+  pressure,
+  temperature,
+  density,
+  energy_per_area,
+  force_per_length,
+  acceleration,
+  inverse_velocity,
+  frequency,
+  angle
+};
 
 constexpr auto names_of_values(Dimension) {
   return name_list("text", "count", "ratio", "length", "velocity", "time", "pressure",
-                   "temperature");
+                   "temperature", "density", "energy per area", "force per length", "acceleration",
+                   "inverse velocity", "frequency", "angle");
 }
 
 /// The factor to SI of a unit name ("um", "cm/s", "%"); nullopt if `unit` does not belong to
@@ -42,6 +59,9 @@ std::optional<double> unit_factor(Dimension dimension, std::string_view unit);
 
 /// The unit names accepted for `dimension`, the usual one first.
 std::vector<std::string> unit_names(Dimension dimension);
+
+/// The SI unit of `dimension`, "1" of counts and ratios. @pre it is no text
+std::string si_unit(Dimension dimension);
 
 /// What `unit` measures; nullopt for an unknown unit.
 std::optional<Dimension> dimension_of_unit(std::string_view unit);

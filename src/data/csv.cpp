@@ -193,16 +193,6 @@ double number_in(const CsvField& cell, const std::string& file, const std::strin
                    fmt::format("{} has to be a finite number", what), suggestion);
 }
 
-Scale known_scale(Dimension dimension, const std::string& unit, const std::string& of,
-                  const Location& where) {
-  Scale scale{known_factor(dimension, unit, of, where)};
-  if (dimension == Dimension::temperature) {
-    if (unit == "degC" || unit == "°C") scale.zero = 273.15;
-    if (unit == "degF" || unit == "°F") scale.zero = 459.67 * scale.factor;
-  }
-  return scale;
-}
-
 void require_width(const CsvRow& row, std::size_t width, const std::string& file) {
   if (row.size() == width) return;
   const bool too_many = row.size() > width;

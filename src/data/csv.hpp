@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
 
 namespace recoil {
 
@@ -49,19 +48,6 @@ std::optional<double> parse_number(std::string_view text, const NumberFormat& fo
 /// @throws InputError at the cell
 double number_in(const CsvField& cell, const std::string& file, const std::string& what,
                  const NumberFormat& format = {});
-
-/// Converts the numbers of a column into SI.
-struct Scale {
-  double factor = 1.0;
-  double zero = 0.0;  ///< what 0 in the unit is in SI: 273.15 for degC
-
-  double operator()(double stated) const { return stated * factor + zero; }
-};
-
-/// The scale of `unit`. @param of name of the quantity, for the message
-/// @throws InputError if the unit is unknown or does not belong to `dimension`
-Scale known_scale(Dimension dimension, const std::string& unit, const std::string& of,
-                  const Location& where);
 
 /// @throws InputError unless the row has as many cells as the header
 void require_width(const CsvRow& row, std::size_t width, const std::string& file);

@@ -105,7 +105,7 @@ Column read_field(const JsonNode& field) {
   const JsonNode name =
       field.require("name", "it links the field to a column",
                     "known: series, diameter, incident_velocity, restitution, ... "
-                    "(recoil help data)");
+                    "(docs/data.md)");
   Column column;
   column.name = name.string();
   const auto quantity = value_named<Quantity>(column.name);

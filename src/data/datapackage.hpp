@@ -14,6 +14,7 @@
 #include "core/units.hpp"
 #include "data/csv.hpp"
 #include "data/json_document.hpp"
+#include "data/quantity.hpp"
 #include "data/system.hpp"
 
 namespace recoil {

@@ -10,6 +10,7 @@
 #include "data/csv.hpp"
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
+#include "data/quantity.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -180,7 +181,7 @@ MeasuredSizes load_sizes(const fs::path& file, const std::string& unit) {
   const std::string beside = read_resource_beside(file, sizes);
   const std::string name = !unit.empty() ? unit : beside.empty() ? "um" : beside;
   SizesReader reader(file.string(),
-                     known_factor(Dimension::length, name, "the diameter", {file.string()}));
+                     known_scale(Dimension::length, name, "the diameter", {file.string()}).factor);
   read_csv(text, file.string(), ',', [&](const CsvRow& row) { reader.read_row(row); });
   reader.finish(sizes);
   return sizes;

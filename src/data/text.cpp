@@ -4,17 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t longest_word = 40;  // in a message [characters]
-
-/// The last three are no-break spaces, which spreadsheets and web pages put around numbers.
-constexpr std::array<std::string_view, 6> blanks = {" ", "\t", "\r", "\u00A0", "\u202F", "\u2007"};
 
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
@@ -56,19 +50,6 @@ void require_text(std::string_view text, const std::string& file) {
   }
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto drop = [&](std::string_view blank) {
-    const bool before = text.starts_with(blank);
-    const bool after = !before && text.ends_with(blank);
-    if (before) text.remove_prefix(blank.size());
-    if (after) text.remove_suffix(blank.size());
-    return before || after;
-  };
-  while (std::ranges::any_of(blanks, drop)) {
-  }
-  return text;
-}
-
 std::string with_plain_blanks(std::string text) {
   for (const std::string_view blank : blanks) replace_all(text, blank, " ");
   return text;
@@ -94,17 +75,6 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
                          : fmt::format("did you mean '{}'?", nearest);
 }
 
-double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
-                    const Location& where) {
-  if (const auto factor = unit_factor(dimension, unit)) return *factor;
-  const auto other = dimension_of_unit(unit);
-  throw InputError(where,
-                   other ? fmt::format("{} in {}", of, quote(unit))
-                         : fmt::format("unknown unit {} of {}", quote(unit), of),
-                   other ? fmt::format("that is the unit of a {}", name_of(*other)) : "",
-                   fmt::format("use {}", join(unit_names(dimension))));
-}
-
 std::string unit_suffix(std::string_view unit) {
   return unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
 }
@@ -127,16 +97,6 @@ std::string counted(long long count, std::string_view one, std::string_view many
 
 std::string join(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  text = trimmed(text);
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, failed] = std::from_chars(text.data(), end, value);
-  if (failed != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace recoil

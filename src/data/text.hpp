@@ -1,14 +1,13 @@
 #pragma once
 
 #include <concepts>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/numbers.hpp"
 #include "core/quoting.hpp"
-#include "core/units.hpp"
 
 namespace recoil {
 
@@ -19,9 +18,6 @@ Location locate(std::string_view text, std::size_t offset, const std::string& fi
 /// Checks that `text` is UTF-8, because JSON and HTML results repeat names and titles.
 /// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629)
 void require_text(std::string_view text, const std::string& file);
-
-/// `text` without the blanks, no-break spaces, tabs and carriage returns around it.
-std::string_view trimmed(std::string_view text);
 
 /// `text` with a blank instead of each no-break space, tab and carriage return.
 std::string with_plain_blanks(std::string text);
@@ -34,11 +30,6 @@ std::string quote(std::string_view word);
 
 /// "did you mean 'x'?" if a known word is near, otherwise "known: a, b, c".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
-
-/// The factor to SI of `unit`. @param of name of the quantity, for the message
-/// @throws InputError if the unit is unknown or does not belong to `dimension`
-double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
-                    const Location& where);
 
 /// The unit after a number in a message: " m/s"; empty for a pure number ("1" or "").
 std::string unit_suffix(std::string_view unit);
@@ -56,9 +47,5 @@ std::string counted(Count count, std::string_view one, std::string_view many = "
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);
-
-/// Parses a finite decimal number with blanks around it; nullopt for any other text (nan, inf,
-/// overflow, trailing characters, a decimal comma).
-std::optional<double> parse_number(std::string_view text);
 
 }  // namespace recoil

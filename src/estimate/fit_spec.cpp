@@ -512,6 +512,9 @@ class FitReader : private TomlReader {
       spec.posterior = boolean(*node, "posterior");
     }
     if (const toml::node* node = table.get("own_design")) {
+      if (!node->is_boolean() && !node->is_integer()) {
+        wrong_type(*node, "own_design", "true, false or a whole number", "own_design = false");
+      }
       const std::int64_t count = node->is_boolean() ? (boolean(*node, "own_design") ? 200 : 0)
                                                     : integer(*node, "own_design");
       if (count != 0 && (count < fewest_own_designs || count > most_replicates)) {

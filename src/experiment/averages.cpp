@@ -234,23 +234,6 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
   return result;
 }
 
-PairRequest PairArguments::request(const std::string& file) const {
-  constexpr double degree = std::numbers::pi / 180.0;
-  PairRequest out = {file,
-                     {.height = height * recoil::units::mm,
-                      .height_range = height_range,
-                      .refine = !keep_height,
-                      .diameter_tolerance = diameter_tolerance,
-                      .velocity_tolerance = velocity_tolerance,
-                      .threshold = threshold,
-                      .angle = angle ? std::optional(*angle * degree) : std::nullopt,
-                      .keep_later = keep_later,
-                      .lost_share = lost_share},
-                     {per_bin, size_classes, {}, mean_diameter}};
-  for (const double edge : size_edges) out.averaging.size_edges.push_back(edge * recoil::units::um);
-  return out;
-}
-
 PairedPassages pair_and_average(PassageTable table, const PairRequest& request) {
   PairedPassages paired;
   paired.table = std::move(table);

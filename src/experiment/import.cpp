@@ -139,7 +139,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
 
 /// Adds the scatter of the experiment to the errors of the readings.
 void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& points) {
-  const StatedError scatter = stated_error(request.scatter, Dimension::ratio, "--scatter");
+  const StatedError scatter = stated_error(request.scatter, Dimension::ratio, "1", "--scatter");
   if (!scatter.stated()) return;
   for (ImportedPoint& point : points) {
     const auto e = point.restitution();

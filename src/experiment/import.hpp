@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
 
@@ -25,8 +26,9 @@ constexpr auto names_of_values(ImportFormat) {
   return name_list("webplotdigitizer", "heights", "intervals", "csv", "track");
 }
 
-/// The file to import and the information that it lacks, as on the command line. Values with units
-/// are words such as "4.9um"; errors are "2%" (of the value) or "0.5mm".
+/// The file to import and the information that it lacks, as on the command line. Quantities are
+/// words such as "4.9um"; errors are "2%" (of the value) or "0.5mm". A number without a unit counts
+/// in um if it is a diameter, otherwise in the SI unit.
 struct ImportRequest {
   std::filesystem::path file;
   std::optional<std::string> text;  ///< the content to import instead of reading `file`
@@ -61,16 +63,14 @@ struct ImportRequest {
   std::string scatter;                    ///< of e, in addition to reading errors
   double captured_below = 0.0;            ///< a restitution below this is a capture [1]
 
-  std::string drop_error, rebound_error;   ///< of the heights
-  std::string time_error;                  ///< of one bounce
-  bool average = false;                    ///< repeated drops from one height become one point
-  std::string gravity = "9.80665";         ///< [m/s2]
-  std::optional<double> ambient_pressure;  ///< [Pa]; 0: vacuum
-  std::optional<double> temperature;       ///< [K]
-  std::optional<double> fps;               ///< frames per second of a track [1/s]
-  std::string scale;                       ///< length of a pixel of a track: "0.4mm"
-  std::string method;                      ///< how velocities were measured; empty: by the format
-  std::vector<std::string> conditions;     ///< "target_thickness=5mm"
+  std::string drop_error, rebound_error;  ///< of the heights
+  std::string time_error;                 ///< of one bounce
+  bool average = false;                   ///< repeated drops from one height become one point
+  double gravity = standard_gravity;      ///< [m/s2]
+  std::optional<double> fps;              ///< frames per second of a track [1/s]
+  std::string scale;                      ///< length of a pixel of a track: "0.4mm"
+  std::string method;                     ///< how velocities were measured; empty: by the format
+  std::vector<std::string> conditions;    ///< "target_thickness=5mm"
 };
 
 /// A note about an import: an assumption, an omission or the result of a check.

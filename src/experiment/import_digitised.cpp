@@ -119,8 +119,9 @@ void read_coordinates(const std::vector<std::string>& map, FigureAxes& axes) {
     axis.quantity = quantity;
     axis.factor = colon == std::string::npos
                       ? 1.0
-                      : known_factor(dimension_of(quantity), pair->second.substr(colon + 1),
-                                     fmt::format("--map {}", pair->first), {});
+                      : known_scale(dimension_of(quantity), pair->second.substr(colon + 1),
+                                    fmt::format("--map {}", pair->first), {})
+                            .factor;
   }
   if ((axes[0].quantity == Quantity::incident_velocity) ==
       (axes[1].quantity == Quantity::incident_velocity)) {

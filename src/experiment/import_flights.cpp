@@ -17,7 +17,7 @@ namespace {
 class Flights {
  public:
   Flights(const ImportRequest& request, const SphereInAir& sphere)
-      : request_(request), sphere_(sphere), gravity_(gravity_of(request)) {}
+      : request_(request), sphere_(sphere), gravity_(request.gravity) {}
 
   double gravity() const { return gravity_; }
 
@@ -395,9 +395,9 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
                               {"rebound_height", Dimension::length, true},
                               {"drop_height_sd", Dimension::length},
                               {"rebound_height_sd", Dimension::length}});
-  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
+  const StatedError drop = stated_error(request.drop_error, Dimension::length, "m", "--drop-error");
   const StatedError rebound =
-      stated_error(request.rebound_error, Dimension::length, "--rebound-error");
+      stated_error(request.rebound_error, Dimension::length, "m", "--rebound-error");
   Flights flights(request, sphere);
   std::vector<Drops> drops;
   bool stated = drop.stated();
@@ -449,8 +449,8 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   table.require_one_of(
       "interval", "time",
       "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
-  const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
-  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
+  const StatedError time = stated_error(request.time_error, Dimension::time, "s", "--time-error");
+  const StatedError drop = stated_error(request.drop_error, Dimension::length, "m", "--drop-error");
   Flights flights(request, sphere);
   const std::vector<Launch> launches = read_launches(table);
   ImportedPoints out;

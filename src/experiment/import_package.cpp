@@ -35,6 +35,22 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
   return json;
 }
 
+/// A constant that key=value states.
+struct MaterialConstant {
+  std::string_view key;
+  Dimension dimension;
+};
+
+constexpr MaterialConstant constants[] = {{"density", Dimension::density},
+                                          {"youngs_modulus", Dimension::pressure},
+                                          {"poisson_ratio", Dimension::ratio},
+                                          {"surface_energy", Dimension::energy_per_area},
+                                          {"hardness", Dimension::pressure},
+                                          {"yield_strength", Dimension::pressure},
+                                          {"relative_permittivity", Dimension::ratio},
+                                          {"diameter", Dimension::length},
+                                          {"temperature", Dimension::temperature}};
+
 /// A material from "material=steel,density=7900,...", from a JSON file, or from a name of the
 /// table, "steel,density=7900".
 Json material(const std::string& words, const std::string& option) {
@@ -55,8 +71,12 @@ Json material(const std::string& words, const std::string& option) {
                        "",
                        "write material=steel,density=7900,youngs_modulus=193e9,poisson_ratio=0.3");
     }
-    const auto number = parse_number(pair->second);
-    json[pair->first] = number && pair->first != "material" ? Json(*number) : Json(pair->second);
+    const auto& [key, value] = *pair;
+    const auto known = std::ranges::find(constants, key, &MaterialConstant::key);
+    json[key] = known == std::end(constants)
+                    ? Json(value)
+                    : Json(parse_quantity(value, known->dimension, si_unit(known->dimension),
+                                          fmt::format("{} {}", option, key)));
   }
   return json;
 }
@@ -84,15 +104,12 @@ Provenance provenance_for(const ImportRequest& request,
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
       request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
-  const auto put = [&](const char* key, const std::optional<double>& stated, double otherwise) {
-    if (stated) {
-      system["conditions"][key] = *stated;
-    } else if (flights && !(system.contains("conditions") && system["conditions"].contains(key))) {
-      system["conditions"][key] = otherwise;
-    }
+  const auto put_if_missing = [&](const char* key, double otherwise) {
+    if (system.contains("conditions") && system["conditions"].contains(key)) return;
+    system["conditions"][key] = otherwise;
   };
-  put("ambient_pressure", request.ambient_pressure, Air().pressure);
-  put("temperature", request.temperature, Air().temperature);
+  if (flights) put_if_missing("ambient_pressure", Air().pressure);
+  if (flights) put_if_missing("temperature", Air().temperature);
   for (const std::string& word : split_lists(request.conditions)) {
     const auto pair = split_pair(word);
     const auto condition = value_named<Condition>(pair ? pair->first : "");
@@ -100,11 +117,9 @@ void put_conditions(const ImportRequest& request, Json& system) {
       throw InputError({}, fmt::format("--condition {} names no condition", quote(word)), "",
                        did_you_mean(pair ? pair->first : word, all_names<Condition>()));
     }
-    const auto number = parse_number(pair->second);  // in SI units
-    system["conditions"][pair->first] =
-        number ? *number
-               : value_with_unit(pair->second, dimension_of(quantity_of(*condition)),
-                                 fmt::format("--condition {}", pair->first));
+    const Dimension dimension = dimension_of(quantity_of(*condition));
+    system["conditions"][pair->first] = parse_quantity(pair->second, dimension, si_unit(dimension),
+                                                       fmt::format("--condition {}", pair->first));
   }
 }
 

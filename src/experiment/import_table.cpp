@@ -15,17 +15,6 @@
 namespace recoil {
 namespace {
 
-/// The number at the beginning of a word and the rest of the word.
-std::optional<std::pair<double, std::string>> number_and_rest(const std::string& word) {
-  const std::string_view text = trimmed(word);
-  for (std::size_t length = text.size(); length > 0; --length) {
-    if (const auto value = parse_number(text.substr(0, length))) {
-      return std::pair{*value, std::string(trimmed(text.substr(length)))};
-    }
-  }
-  return std::nullopt;
-}
-
 /// The diameter that --diameter states for a series.
 std::optional<double> stated_diameter(const ImportRequest& request, const std::string& series) {
   std::optional<double> for_all;
@@ -33,7 +22,7 @@ std::optional<double> stated_diameter(const ImportRequest& request, const std::s
     const auto pair = split_pair(word);
     if (pair && pair->first != series) continue;
     const double value =
-        value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
+        parse_quantity(pair ? pair->second : word, Dimension::length, "um", "--diameter");
     if (pair) return value;
     for_all = value;
   }
@@ -222,29 +211,20 @@ void blank_comments(std::string& text, const Lines& lines, char delimiter,
 
 }  // namespace
 
-double value_with_unit(const std::string& word, Dimension dimension, const std::string& option) {
-  const std::vector<std::string> names = unit_names(dimension);
-  if (const auto parts = number_and_rest(word)) {
-    const bool plain = dimension == Dimension::ratio && parts->second.empty();
-    const auto factor = plain ? 1.0 : unit_factor(dimension, parts->second);
-    if (factor) {
-      const std::string unit = plain ? "1" : parts->second;
-      return known_scale(dimension, unit, option, {})(parts->first);
-    }
-  }
-  throw InputError({}, fmt::format("{} {} is not a number with a unit", option, quote(word)),
-                   fmt::format("units are {}", join(names)),
-                   fmt::format("write for example 4.9{}", names.front()));
+std::string usual_unit(const std::string& quantity, Dimension dimension) {
+  if (dimension == Dimension::text) return "";
+  return quantity.find("diameter") == std::string::npos ? si_unit(dimension) : "um";
 }
 
-StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option) {
+StatedError stated_error(const std::string& word, Dimension dimension, const std::string& usual,
+                         const std::string& option) {
   StatedError error;
   if (word.empty()) return error;
-  const auto parts = number_and_rest(word);
+  const auto parts = number_and_unit(word);
   if (parts && parts->second == "%") {
     error.relative = parts->first / 100.0;
   } else {
-    error.absolute = value_with_unit(word, dimension, option);
+    error.absolute = parse_quantity(word, dimension, usual, option);
   }
   if (error.relative < 0.0 || error.absolute < 0.0 || !error.stated()) {
     throw InputError({}, fmt::format("{} {} is not positive", option, quote(word)),
@@ -318,10 +298,18 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   const StatedError error =
-      stated_error(request.diameter_error, Dimension::length, "--diameter-error");
+      stated_error(request.diameter_error, Dimension::length, "um", "--diameter-error");
+  bool for_all = false;
   for (const std::string& word : request.diameters) {  // including those that are not needed
     const auto pair = split_pair(word);
-    value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
+    parse_quantity(pair ? pair->second : word, Dimension::length, "um", "--diameter");
+    if (pair) continue;
+    if (for_all) {
+      throw InputError({},
+                       fmt::format("--diameter {} is a second diameter of all series", quote(word)),
+                       "", "give one, or SERIES=DIAMETER");
+    }
+    for_all = true;
   }
   std::vector<std::string> series;
   std::vector<std::string> named;  // series whose names hold their diameters
@@ -353,15 +341,6 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   }
   if (!used) imported.notes.push_back({ImportRemark::diameter_not_used});
   if (!named.empty()) imported.notes.push_back({ImportRemark::diameters_from_names, named});
-}
-
-double gravity_of(const ImportRequest& request) {
-  constexpr Range gravities{1e-3, 1e3, "m/s2"};
-  const auto value = parse_number(request.gravity);
-  if (value && gravities.contains(*value)) return *value;
-  throw InputError(
-      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
-      "write 9.80665 for standard gravity");
 }
 
 NumberFormat number_format(const ImportRequest& request) {
@@ -531,13 +510,12 @@ void ImportTable::read_map(const std::string& entry) {
   }
   const bool text = quantity->dimension == Dimension::text;
   Source source;
-  const auto constant = number_and_rest(column);
+  const auto constant = number_and_unit(column);
   if (!text && !is_column(column) && constant && unit.empty() &&
       (constant->second.empty() || dimension_of_unit(constant->second))) {
-    const bool pure = unit_factor(quantity->dimension, "1").has_value();
     source.constant =
-        known_scale(quantity->dimension, constant->second.empty() && pure ? "1" : constant->second,
-                    fmt::format("--map {}", quantity->name), {})(constant->first);
+        parse_quantity(column, quantity->dimension, usual_unit(quantity->name, quantity->dimension),
+                       fmt::format("--map {}", quantity->name));
   } else {
     for (std::size_t at = 0; at <= column.size();) {
       const std::size_t end =
@@ -596,7 +574,7 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
     name = usual->second;
   }
   // "0.35mm", or a factor to SI: "0.0254"
-  const auto factor = number_and_rest(name);
+  const auto factor = number_and_unit(name);
   if (factor) name = factor->second;
   const bool pure =
       quantity.dimension == Dimension::count || quantity.dimension == Dimension::ratio;

@@ -17,10 +17,6 @@
 /// --map assigns, and imported points.
 namespace recoil {
 
-/// The SI value of "4.9um" or "4.9 um". @param option for messages: "--diameter"
-/// @throws InputError unless it is a number with a unit of this dimension
-double value_with_unit(const std::string& word, Dimension dimension, const std::string& option);
-
 /// One standard deviation, relative to the value or absolute.
 struct StatedError {
   double relative = 0.0;  ///< [1]
@@ -30,9 +26,16 @@ struct StatedError {
   double of(double value) const { return relative * value + absolute; }
 };
 
-/// Parses an error: "2%" is relative, "0.5mm" is absolute, and an empty word states none. An error
-/// of a restitution has no unit. @throws InputError
-StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option);
+/// Parses an error: "2%" is relative, "0.5mm" is absolute, and an empty word states none.
+/// @param usual the unit of a number without a unit
+/// @param option for messages: "--drop-error"
+/// @throws InputError
+StatedError stated_error(const std::string& word, Dimension dimension, const std::string& usual,
+                         const std::string& option);
+
+/// The unit of a quantity that states none: um of a diameter, otherwise the SI unit; empty for
+/// texts.
+std::string usual_unit(const std::string& quantity, Dimension dimension);
 
 /// Splits at commas outside quotation marks, and removes blanks around the parts.
 std::vector<std::string> split_list(std::string_view text);
@@ -75,9 +78,6 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 /// Sets the diameter of every point and its error.
 /// @throws InputError for a point without a diameter, and for a --diameter of no series
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
-
-/// --gravity [m/s2].
-double gravity_of(const ImportRequest& request);
 
 /// The notation of numbers in the file.
 NumberFormat number_format(const ImportRequest& request);

@@ -200,7 +200,7 @@ class TrackReader {
  public:
   TrackReader(const ImportRequest& request, bool scaled, std::vector<ImportNote> notes)
       // A copy of a few notes. NOLINTNEXTLINE(performance-unnecessary-value-param)
-      : request_(request), scaled_(scaled), gravity_(gravity_of(request)), out_{{}, notes} {}
+      : request_(request), scaled_(scaled), gravity_(request.gravity), out_{{}, notes} {}
 
   void read(const Track& track) {
     const std::vector<Sample>& samples = track.samples;
@@ -298,8 +298,9 @@ class TrackReader {
 std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request) {
   const bool frames = table.has("frame");
   const bool pixels = table.has("pixel");
-  const double pixel =
-      request.scale.empty() ? 1.0 : value_with_unit(request.scale, Dimension::length, "--scale");
+  const double pixel = request.scale.empty()
+                           ? 1.0
+                           : parse_quantity(request.scale, Dimension::length, "m", "--scale");
   std::vector<Track> tracks;
   std::map<std::string, std::size_t> index;
   const std::string clock = frames ? "frame" : "time";

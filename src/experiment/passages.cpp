@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "data/csv.hpp"
 #include "data/datapackage.hpp"
+#include "data/quantity.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -131,7 +132,7 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
             fmt::format("give --unit {}={}", name, fmt::join(unit_names(field.dimension), "|")));
       }
       const std::string& unit = by_option ? format.units.at(name) : stated.units.at(wanted);
-      column.factor = known_factor(field.dimension, unit, fmt::format("'{}'", name), place);
+      column.factor = known_scale(field.dimension, unit, fmt::format("'{}'", name), place).factor;
       table.units.push_back({name, unit});
       table.has_tangential = table.has_tangential || field.place == &Passage::tangential;
     }

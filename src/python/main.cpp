@@ -2,6 +2,7 @@
 // to Python as the JSON that the commands write, so that names and digits are the same; many
 // impacts are passed as arrays.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -33,6 +34,7 @@
 #include "experiment/averages.hpp"
 #include "experiment/pairing_files.hpp"
 #include "json/fit_file.hpp"
+#include "options/option_requests.hpp"
 #include "plot/draw.hpp"
 #include "predict/polydisperse.hpp"
 #include "predict/simulated_impact.hpp"
@@ -128,6 +130,23 @@ auto interruptible(const Work& work) {
 FitInputs inputs_from_text(const std::string& text, const std::string& file,
                            std::vector<Dataset> datasets) {
   return {parse_fit(text, file), std::move(datasets)};
+}
+
+/// The keyword arguments of a function that are options: name, meaning, and whether it takes
+/// several values.
+std::vector<std::tuple<std::string, std::string, bool>> option_meanings(
+    const std::string& function) {
+  std::vector<std::tuple<std::string, std::string, bool>> meanings;
+  for (const OptionRow* row : arguments_of(function)) {
+    const bool words = !row->type.words.empty() && !row->type.is_number();
+    const bool bare = row->type.is_flag() || row->type.unit.empty();
+    const std::string unit =
+        bare || row->type.unit == "1" ? "" : fmt::format(" [{}]", row->type.unit);
+    const std::string known = words ? fmt::format(": {}", fmt::join(row->type.words, ", ")) : "";
+    meanings.emplace_back(row->python, fmt::format("{}{}{}", row->meaning, unit, known),
+                          row->type.most > 1);
+  }
+  return meanings;
 }
 
 // ---- models ------------------------------------------------------------------------------------
@@ -330,28 +349,28 @@ struct Predicted {
 };
 
 Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
-                      const std::string& unit, std::optional<double> height_mm, bool midpoints,
-                      const std::string& dataset) {
-  const PolydispersePrediction mixture =
-      predict_sizes(analysis, load_sizes(sizes_file, unit), height_mm, midpoints, dataset);
+                      const GivenOptions& given) {
+  const PolydispersePrediction mixture = predict_sizes(
+      analysis, load_sizes(sizes_file, given.text("--unit")), given.number_if_any("--height"),
+      given.has("--midpoints"), given.text("--dataset"));
   return {json_prediction(analysis, mixture),
           text_prediction(analysis, mixture),
           {{mixture_figure(analysis, mixture)}}};
 }
 
-Diagnosis diagnosis_of(const Analysis& analysis, std::optional<std::uint64_t> seed, int threads) {
+Diagnosis diagnosis_of(const Analysis& analysis, const GivenOptions& given) {
   DiagnosisOptions options;
-  options.threads = threads;
-  options.seed = seed.value_or(analysis.spec.uncertainty.seed);
+  options.threads = static_cast<int>(given.whole("--threads"));
+  options.seed = seed_of(given, analysis.spec);
   Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, options);
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   return diagnosis;
 }
 
-std::string coverage_of(const FitInputs& inputs, int datasets, const AnalysisOptions& options) {
+std::string coverage_of(const FitInputs& inputs, const GivenOptions& given) {
   CoverageOptions coverage;
-  coverage.datasets = datasets;
-  coverage.uncertainty = uncertainty_options(inputs.spec, options);
+  coverage.datasets = static_cast<int>(given.whole("--datasets"));
+  coverage.uncertainty = uncertainty_options(inputs.spec, analysis_options(given));
   require_scheme(inputs.spec, coverage.uncertainty.scheme, gather(inputs.datasets));
   const CoverageTruth truth =
       coverage_truth(inputs.spec, inputs.datasets, coverage.uncertainty.seed);
@@ -374,12 +393,10 @@ struct PairTexts {
   std::string json, text, points, impacts;
 };
 
-/// @param json a PairArguments object
-PairTexts pair_texts(const std::string& file, const std::string& json) {
-  const auto arguments = value_from<PairArguments>(Json::parse(json));
-  const PairRequest request = arguments.request(file);
-  const PairedPassages paired = pair_and_average(
-      read_passages(file, {arguments.units, arguments.columns, arguments.positive_away}), request);
+PairTexts pair_texts(const std::string& file, const GivenOptions& given) {
+  const PairRequest request = pair_request(file, given);
+  const PairedPassages paired =
+      pair_and_average(read_passages(file, passage_format(given)), request);
   require_impacts(paired, request, "");
   const auto& [table, pairs, averages] = paired;
   return {pairing_json(table, pairs, averages), pairing_text(table, pairs, averages),
@@ -457,9 +474,9 @@ void bind_inputs(py::module_& module) {
       "load_fit", [](const std::string& file) { return load_inputs(file); }, py::arg("file"));
   module.def("parse_fit", &inputs_from_text, py::arg("text"), py::arg("file"), py::arg("datasets"));
 
-  py::class_<AnalysisOptions>(module, "Options")
-      .def(py::init(&analysis_options), py::arg("replicates"), py::arg("scheme"), py::arg("seed"),
-           py::arg("threads"), py::arg("solver"));
+  py::class_<GivenOptions>(module, "Options")
+      .def(py::init(&GivenOptions::of_python), py::arg("function"), py::arg("arguments"));
+  module.def("option_meanings", &option_meanings, py::arg("function"));
 }
 
 void bind_models(py::module_& module) {
@@ -472,10 +489,10 @@ void bind_models(py::module_& module) {
            py::call_guard<Released>());
   module.def(
       "model_of_fit",
-      [](const FitInputs& inputs, const std::string& parameters) {
-        return model_of(inputs, parameters);
+      [](const FitInputs& inputs, const GivenOptions& given) {
+        return model_of(inputs, given.text("--parameters"));
       },
-      py::arg("inputs"), py::arg("parameters"));
+      py::arg("inputs"), py::arg("options"));
 }
 
 void bind_results(py::module_& module) {
@@ -502,24 +519,21 @@ void bind_results(py::module_& module) {
       .def("model", [](const Analysis& a) { return model_of(a); })
       .def(
           "predict",
-          [](const Analysis& a, const std::string& sizes, const std::string& unit,
-             std::optional<double> height_mm, bool midpoints, const std::string& dataset) {
-            return interruptible(
-                [&] { return predict_for(a, sizes, unit, height_mm, midpoints, dataset); });
+          [](const Analysis& a, const std::string& sizes, const GivenOptions& given) {
+            return interruptible([&] { return predict_for(a, sizes, given); });
           },
-          py::arg("sizes"), py::arg("unit"), py::arg("height_mm"), py::arg("midpoints"),
-          py::arg("dataset"))
+          py::arg("sizes"), py::arg("options"))
       .def(
           "diagnose",
-          [](const Analysis& a, std::optional<std::uint64_t> seed, int threads) {
-            return interruptible([&] { return diagnosis_of(a, seed, threads); });
+          [](const Analysis& a, const GivenOptions& given) {
+            return interruptible([&] { return diagnosis_of(a, given); });
           },
-          py::arg("seed"), py::arg("threads"));
+          py::arg("options"));
   module.def(
       "fit",
-      [](const FitInputs& inputs, const AnalysisOptions& options) {
+      [](const FitInputs& inputs, const GivenOptions& given) {
         return interruptible([&] {
-          auto analysis = std::make_shared<Analysis>(analyse(inputs, options));
+          auto analysis = std::make_shared<Analysis>(analyse(inputs, analysis_options(given)));
           add_predictions(*analysis);
           return analysis;
         });
@@ -551,10 +565,10 @@ void bind_results(py::module_& module) {
 
   module.def(
       "coverage",
-      [](const FitInputs& inputs, int datasets, const AnalysisOptions& options) {
-        return interruptible([&] { return coverage_of(inputs, datasets, options); });
+      [](const FitInputs& inputs, const GivenOptions& given) {
+        return interruptible([&] { return coverage_of(inputs, given); });
       },
-      py::arg("inputs"), py::arg("datasets"), py::arg("options"));
+      py::arg("inputs"), py::arg("options"));
   module.def("compare", &compared, py::arg("named_texts"), py::call_guard<Released>());
 }
 
@@ -566,10 +580,10 @@ void bind_pairs(py::module_& module) {
       .def_readonly("impacts", &PairTexts::impacts);
   module.def(
       "pair",
-      [](const std::string& file, const std::string& json) {
-        return interruptible([&] { return pair_texts(file, json); });
+      [](const std::string& file, const GivenOptions& given) {
+        return interruptible([&] { return pair_texts(file, given); });
       },
-      py::arg("file"), py::arg("json"));
+      py::arg("file"), py::arg("options"));
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ Words cluster(const std::string& system, const Words& more) {
 TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
   const Workplace place;
   const std::vector<std::pair<std::string, Words>> systems = {
-      {"slurm", {"array.sbatch", "run.sh", "shard.sh"}},
-      {"parallel", {"merge.sh", "run.sh", "shard.sh"}}};
+      {"slurm", {"array.sbatch", "run.sh", "shard.sh"}}, {"parallel", {"run.sh", "shard.sh"}}};
   for (const auto& [system, names] : systems) {
     fs::remove_all(place.path() / "job");
     const Outcome wrote = place.run(cluster(system, {"fit.toml", "--replicates", "9"}));

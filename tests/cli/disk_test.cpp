@@ -180,7 +180,7 @@ TEST(DiskAtWork, AResultThatHasNoRoomIsPrintedAllTheSame) {
 TEST(DiskAtWork, AFullStandardOutputIsTold) {
   const SmallDisk disk;
   for (const std::string words :
-       {"fit fit.toml", "diagnose fit.toml --json", "help data", "materials"}) {
+       {"fit fit.toml", "diagnose fit.toml --json", "help fit", "materials"}) {
     const Outcome told = support::run_command(
         {"sh", "-c", "\"$0\" " + words + " >/dev/full", RECOIL_BINARY}, disk.path());
     EXPECT_EQ(told.status, 2) << told.err;

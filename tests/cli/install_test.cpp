@@ -19,8 +19,8 @@ const std::string kBuild = fs::path(RECOIL_BINARY).parent_path().string();
 const std::string kMeaningful = "c++ (new)";
 
 void expect_a_whole_installation(const fs::path& prefix) {
-  for (const char* file :
-       {"bin/recoil", "share/doc/recoil/LICENSE", "share/recoil/schemas/fit.schema.json"}) {
+  for (const char* file : {"bin/recoil", "share/doc/recoil/LICENSE", "share/doc/recoil/README.md",
+                           "share/doc/recoil/fit.md", "share/recoil/schemas/fit.schema.json"}) {
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
     EXPECT_GT(fs::file_size(prefix / file), 200U) << file;
   }

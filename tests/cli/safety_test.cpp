@@ -285,7 +285,7 @@ TEST(Safety, NumbersAreTakenAsTheyAreOrRefused) {
            {"predict", "fit.toml", "--sizes", "sizes.csv", "--height", "nan"},
            {"plan", "fit.toml", "--velocity", "nan,20"},
            {"plan", "fit.toml", "--error", "inf"},
-           {"plan", "fit.toml", "--C_H", "nan"},
+           {"plan", "fit.toml", "--assume", "C_H=nan"},
            {"export", "fit.toml", "--to", "table", "--out", "o", "--velocity", "1,nan"},
            {"init", "new", "--like", "data", "--diameter", "inf"},
            {"import", "sizes.csv", "--format", "csv", "--into", "o", "--adhesion-energy", "nan"}}) {

@@ -112,7 +112,7 @@ ImportRequest ball_request(const Place& place, const std::string& text, ImportFo
   request.diameters = {"40mm"};
   request.particle =
       "material=celluloid,density=80.572189940272,youngs_modulus=2e9,poisson_ratio=0.35";
-  request.ambient_pressure.reset();
+  request.conditions.clear();
   return request;
 }
 
@@ -184,7 +184,7 @@ TEST(ImportInAir, VacuumKeepsEveryDigit) {
   const Place place;
   auto request = ball_request(place, "h1,h2\n0.37,0.21\n", ImportFormat::heights,
                               "drop_height=h1:m,rebound_height=h2:m");
-  request.ambient_pressure = 0.0;
+  request.conditions = {"ambient_pressure=0"};
   request.drop_error = "1mm";
   request.rebound_error = "2mm";
   const auto result = recoil::import_points(request);
@@ -209,9 +209,9 @@ TEST(ImportInAir, TheMediumStandsInThePackageAndIsKept) {
   EXPECT_THAT(place.read("made/datapackage.json"), HasSubstr("drag of air at 101325 Pa and 293 K"));
   // What is stated is what the points that replace these are reduced with, too.
   request.replace = true;
-  request.ambient_pressure = 0.0;
+  request.conditions = {"ambient_pressure=0"};
   recoil::import_points(request);
-  request.ambient_pressure.reset();
+  request.conditions.clear();
   const auto again = recoil::import_points(request).dataset;
   expect_close(again.points[0].restitution, std::sqrt(0.6707624827));
   // Another dataset with these materials has its own conditions.
@@ -229,7 +229,7 @@ TEST(ImportInAir, WhatNoSphereCanDoIsRefused) {
   const Place place;
   auto request = place.request("h1,h2\n0.2,0.05\n", ImportFormat::heights);
   request.map = {"drop_height=h1:m,rebound_height=h2:m"};
-  request.ambient_pressure.reset();
+  request.conditions.clear();
   EXPECT_THAT(complaint(request), HasSubstr("input.csv:2:5: restitution = "));
   EXPECT_THAT(complaint(request), HasSubstr("--ambient-pressure 0 for vacuum"));
   EXPECT_FALSE(place.has("made"));

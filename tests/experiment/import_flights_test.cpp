@@ -23,7 +23,7 @@ TEST(Heights, RestitutionAndVelocity) {
   request.map = {"drop_height=h1 [cm],rebound_height=h2:cm"};
   request.drop_error = "2mm";
   request.rebound_error = "1mm";
-  request.gravity = "10";
+  request.gravity = 10.0;
   const Dataset made = recoil::import_points(request).dataset;
   const recoil::ImpactPoint& point = made.points.front();
   EXPECT_DOUBLE_EQ(point.restitution, 0.5);
@@ -119,7 +119,7 @@ TEST(Intervals, OneRestitutionPerBounce) {
       place.request("run,t\na,0.4\na,0.32\na,0.24\nb,0.2\nb,0.15\n", ImportFormat::intervals);
   request.map = {"launch=run,interval=t:s"};
   request.time_error = "1ms";
-  request.gravity = "10";
+  request.gravity = 10.0;
   const auto result = recoil::import_points(request);
   const auto& points = result.dataset.points;
   ASSERT_EQ(points.size(), 3U);
@@ -138,7 +138,7 @@ TEST(Intervals, TimesOfBouncesGiveTheSame) {
   const Place place;
   auto request = place.request("time\n10.0\n10.4\n10.72\n", ImportFormat::intervals);
   request.map = {"time=time:s"};
-  request.gravity = "10";
+  request.gravity = 10.0;
   const Dataset made = recoil::import_points(request).dataset;
   ASSERT_EQ(made.points.size(), 1U);
   EXPECT_NEAR(made.points[0].restitution, 0.8, 1e-9);
@@ -185,7 +185,7 @@ TEST(Intervals, TheReleaseHeightIsChecked) {
     auto request =
         place.request("t,h\n0.32," + height + "\n0.256," + height + "\n", ImportFormat::intervals);
     request.map = {"interval=t:s,release_height=h:m"};
-    request.gravity = "10";
+    request.gravity = 10.0;
     const recoil::ImportNote note = recoil::import_points(request).notes.front();
     EXPECT_EQ(note.remark, recoil::ImportRemark::release_heights);
     return note.releases.at(0);
@@ -209,11 +209,10 @@ TEST(Intervals, WhatIsAskedFor) {
   request.map = {"interval=x"};
   EXPECT_THAT(complaint(request), HasSubstr("input.csv:1:1: the unit of 'x' is not stated"));
   request.map = {"interval=x:s"};
-  request.gravity = "fast";
-  EXPECT_THAT(complaint(request), HasSubstr("--gravity 'fast'"));
-  request.gravity = "9.8";
-  request.time_error = "3";
-  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3' is not a number with a unit"));
+  request.time_error = "3 kg";
+  EXPECT_THAT(complaint(request), HasSubstr("unknown unit 'kg' of --time-error"));
+  request.time_error = "soon";
+  EXPECT_THAT(complaint(request), HasSubstr("--time-error 'soon' is not a number"));
   auto doubled = place.request("t\n0.2\n0.4\n", ImportFormat::intervals);
   doubled.map = {"interval=t:s"};
   EXPECT_THAT(complaint(doubled), HasSubstr("input.csv:3:1: restitution = 2"));

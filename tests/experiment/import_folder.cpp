@@ -17,7 +17,7 @@ recoil::ImportRequest Place::request(const std::string& text, recoil::ImportForm
   request.sources = {"A test"};
   const bool flights =
       format == recoil::ImportFormat::heights || format == recoil::ImportFormat::intervals;
-  if (flights) request.ambient_pressure = 0.0;  // air would stop such spheres at once
+  if (flights) request.conditions = {"ambient_pressure=0"};  // air would stop such spheres at once
   return request;
 }
 

@@ -122,7 +122,7 @@ TEST(ImportRefuses, BodiesThatAreNoMaterials) {
           r.map = {"incident_velocity=V:m/s,restitution=e"};
           r.diameters = {"2kg"};
         },
-        "2kg"},
+        "unknown unit 'kg' of --diameter"},
        {table,
         [](ImportRequest& r) {
           r.map = {"incident_velocity=V:m/s,restitution=e"};

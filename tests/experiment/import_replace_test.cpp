@@ -189,17 +189,17 @@ TEST(Replace, TheCommandLine) {
   place.write("fig7.csv", "2.58 um,,4.90 um,\nX,Y,X,Y\n2.1,0.31,1.2,0.35\n5,0.72,4.9,0.81\n");
   const support::Workplace at;
   const std::string into = (place.folder() / "datasets/wall1990-molybdenum").string();
-  const support::Outcome run = at.run(
-      {"import", (place.folder() / "fig7.csv").string(), "--format", "webplotdigitizer", "--into",
-       into, "--replace", "--axis", "x=log,1,100", "--axis", "y=linear,0,1", "--reading-error",
-       "0.5%", "--source", "Wall et al. (1990), figure 7", "--title", "Wall et al. on molybdenum"});
+  const support::Outcome run =
+      at.run({"import", (place.folder() / "fig7.csv").string(), "--format", "webplotdigitizer",
+              "--into", into, "--replace", "--axis", "x=log,1,100", "--axis", "y=linear,0,1",
+              "--reading-error", "0.5%", "--source", "Wall et al. (1990), figure 7"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("= digitised"));
   EXPECT_THAT(run.out, HasSubstr("Wall et al. (1990), figure 7"));
   EXPECT_EQ(at.run({"check", into}).status, 0);
   const support::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("known: webplotdigitizer, heights, intervals, csv"));
+  EXPECT_THAT(wrong.err, HasSubstr("one of webplotdigitizer, heights, intervals, csv"));
   for (const auto& [format, option] :
        std::vector<std::pair<std::string, std::string>>{{"csv", "--drop-error=1mm"},
                                                         {"csv", "--average"},

@@ -158,7 +158,11 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
   EXPECT_THAT(without([](Request& r) { r.diameters = {"none=3um"}; }),
               HasSubstr("--diameter 'none=3um': there is no such series"));
   EXPECT_THAT(without([](Request& r) { r.diameters = {"3 miles"}; }),
-              HasSubstr("--diameter '3 miles' is not a number with a unit"));
+              HasSubstr("unknown unit 'miles' of --diameter"));
+  EXPECT_THAT(without([](Request& r) {
+                r.diameters = {"3um", "4um"};
+              }),
+              HasSubstr("--diameter '4um' is a second diameter of all series"));
 }
 
 TEST(Table, NothingIsOverwrittenUnasked) {

@@ -168,7 +168,7 @@ TEST(PairCommand, MistakesAreOneLineAndWriteNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"pair", "none.csv"}, "none.csv: no such file"},
       {{"pair", "e.csv", "--out", "p.csv"}, "the unit of 'time' is not known"},
-      {{"pair", "e.csv", "--unit", "time"}, "is not of the form FIELD=VALUE"},
+      {{"pair", "e.csv", "--unit", "time"}, "'time' is not FIELD=UNIT"},
       {{"pair", "e.csv", "--unit", kUnits, "--unit", "time=ms"}, "time is given twice"},
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set"}, "--like"},
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "data"},

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 /// The folders of src in pipeline order. The last two are recoil and the Python module, which know
 /// nothing of each other.
 const std::vector<std::string> kStages = {
-    "core",     "data",     "experiment", "impact", "mechanism", "estimate", "uncertainty",
-    "coverage", "predict",  "diagnosis",  "plan",   "analysis",  "json",     "export",
-    "plot",     "document", "report",     "cli",    "python"};
+    "core",     "data",     "experiment", "impact",  "mechanism", "estimate", "uncertainty",
+    "coverage", "predict",  "diagnosis",  "plan",    "analysis",  "json",     "export",
+    "plot",     "document", "report",     "options", "cli",       "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -

@@ -123,8 +123,8 @@ TEST(PlanCommand, AssumptionsMatter) {
   const auto assumed = [](const json& plan, const char* name) {
     return plan["assumed"]["parameters"][name]["value"].get<double>();
   };
-  const json sticky =
-      json::parse(planned(place, {"--json", "--impacts", "600", "--C_A", "0.1", "--f0", "20"}).out);
+  const json sticky = json::parse(
+      planned(place, {"--json", "--impacts", "600", "--assume", "C_A=0.1 s/m,f0=20"}).out);
   EXPECT_EQ(assumed(sticky, "C_A"), 0.1);
   EXPECT_EQ(assumed(sticky, "f0"), 20.0);
   EXPECT_EQ(assumed(sticky, "C_H"), assumed(plain, "C_H"));
@@ -166,12 +166,16 @@ TEST(PlanCommand, MistakesAreSaidInOneLine) {
       {{"plan", "fit.toml", "--diameter", "2", "--error", "nan"}, "error"},
       {{"plan", "fit.toml", "--diameter", "2", "--impacts", "0"}, "--impacts"},
       {{"plan", "fit.toml", "--diameter", "2", "--impacts", "20"}, "2 parameters are free"},
-      {{"plan", "fit.toml", "--diameter", "2", "--W", "0.2"}, "--W is not a parameter of this fit"},
-      {{"plan", "jkr.toml", "--diameter", "2", "--f0", "9"}, "--f0 is not a parameter of this fit"},
-      {{"plan", "fit.toml", "--diameter", "2", "--C_H", "1e5"}, "outside its bounds"},
+      {{"plan", "fit.toml", "--diameter", "2", "--assume", "W=0.2"},
+       "'W' is not a parameter of this fit"},
+      {{"plan", "jkr.toml", "--diameter", "2", "--assume", "f0=9"},
+       "'f0' is not a parameter of this fit"},
+      {{"plan", "fit.toml", "--diameter", "2", "--assume", "C_H=1e5"}, "outside its bounds"},
+      {{"plan", "fit.toml", "--diameter", "2", "--assume", "C_H=1 m"},
+       "that is the unit of a length"},
       {{"plan", "fixed.toml", "--diameter", "2"}, "no parameter is free"},
       {{"plan", "fit.toml", "--diameter", "2", "--parameters", "no.json"}, "no.json"},
-      {{"plan", "fit.toml", "--diameter", "2", "--f0", "0"}, "--velocity MIN,MAX"},
+      {{"plan", "fit.toml", "--diameter", "2", "--assume", "f0=0"}, "--velocity MIN,MAX"},
   };
   for (const Refused& one : all) {
     const Outcome run = place.run(one.words);

@@ -134,3 +134,70 @@ def test_plots():
         result.plot(what="profile", parameter="C_B")
     with pytest.raises(recoil.InputError, match="choose one of fit"):
         result.plot(what="everything")
+
+
+def test_masked_points_are_left_out():
+    bad = np.array(E)
+    bad[2] = 0.1
+    arguments = {"d": 4.0, "replicates": 0, "threads": 1, **BODIES}
+    rest = recoil.fit(np.delete(V, 2), np.delete(E, 2), **arguments)
+    with pytest.warns(UserWarning, match="1 masked point is left out"):
+        masked = recoil.fit(V, np.ma.masked_less(bad, 0.3), **arguments)
+    assert masked.json == rest.json
+    # a mask of one argument and another one of another, beside values that are not masked
+    sd = np.ma.masked_array(np.full(len(V), 0.015), mask=np.arange(len(V)) == 0)
+    with pytest.warns(UserWarning, match="2 masked points are left out"):
+        both = recoil.fit(np.ma.masked_greater(V, 20), E, e_sd=sd, **arguments)
+    inner = recoil.fit(V[1:-1], E[1:-1], e_sd=0.015, **arguments)
+    assert both.json == inner.json
+    # what is masked may be anything
+    with pytest.warns(UserWarning):
+        recoil.fit(V, np.ma.masked_invalid([math.nan, *E[1:]]), **arguments)
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    ({"e": np.array(E) + 0.1j}, "e has complex numbers"),
+    ({"V": np.array(V, dtype=complex)}, "V has complex numbers"),
+    ({"e": np.array(E) > 0.8}, "e has booleans"),
+    ({"e": np.array(E, dtype=object)}, "e has an entry that is no number"),
+    ({"V": np.array(V).astype(str)}, "V has an entry that is no number"),
+    ({"e": [*E[:-1], None]}, "e has an entry that is no number"),
+    ({"d": "4"}, "d has an entry that is no number"),
+    ({"e": [E, E[:2]]}, "e has an entry that is no number"),
+])
+def test_what_numpy_would_make_another_number_of(arguments, words):
+    good = {"V": V, "e": E, "d": 4, "particle": "glass", "surface": "steel"}
+    given = {**good, **arguments}
+    with pytest.raises(recoil.InputError, match=words):
+        recoil.fit(given.pop("V"), given.pop("e"), **given)
+
+
+def test_columns_of_a_frame_are_arrays():
+    frame = pd.DataFrame({"V": V, "e": E})
+    wanted = recoil.fit(V, E, d=4, replicates=0, **BODIES).json
+    assert recoil.fit(frame.V, frame.e, d=4, replicates=0, **BODIES).json == wanted
+    nullable = frame.convert_dtypes()
+    assert recoil.fit(nullable.V, nullable.e, d=4, replicates=0, **BODIES).json == wanted
+
+
+def test_numbers_of_numpy_are_numbers():
+    glass = {"material": "glass", "density": np.int64(2500), "youngs_modulus": np.float64(70e9),
+             "poisson_ratio": np.float32(0.25)}
+    plain = {"material": "glass", "density": 2500, "youngs_modulus": 70e9, "poisson_ratio": 0.25}
+    table = {"C_H": {"initial": np.float64(3e-3), "bounds": np.array([0.0, 1.0])}}
+    one = recoil.fit(V, E, d=np.float32(4), particle=glass, surface="steel", parameters=table,
+                     uncertainty={"seed": np.int64(5)}, replicates=np.int64(19), threads=np.int8(1))
+    other = recoil.fit(V, E, d=4, particle=plain, surface="steel",
+                       parameters={"C_H": {"initial": 3e-3, "bounds": [0.0, 1.0]}},
+                       uncertainty={"seed": 5}, replicates=19, threads=1)
+    assert one.json == other.json
+    assert one.bootstrap.seed == 5
+    simulated = one.simulate(np.float32(2), np.int64(4))
+    assert simulated.restitution == one.simulate(2.0, 4.0).restitution
+
+
+@pytest.mark.parametrize("density", [None, 2500 + 0j, "heavy", [2500, None], math.nan, 10**400])
+def test_a_material_with_a_constant_that_is_none(density):
+    with pytest.raises(recoil.InputError, match="density"):
+        recoil.fit(V, E, d=4, surface="steel",
+                   particle={"density": density, "youngs_modulus": 7e10, "poisson_ratio": 0.2})

@@ -18,7 +18,7 @@ OPTIONS = [
     ("replicates", 2.7), ("replicates", math.nan), ("replicates", -1), ("replicates", 1e30),
     ("replicates", "many"), ("replicates", [1]), ("seed", -1), ("seed", 1.5), ("seed", 2**63),
     ("seed", math.inf), ("seed", "one"), ("threads", -1), ("threads", 100000), ("threads", 0.5),
-    ("threads", "two"), ("scheme", 3), ("solver", None),
+    ("threads", "two"), ("scheme", 3), ("solver", ""), ("seed", True),
 ]
 
 

@@ -8,7 +8,7 @@ parameters are and what the model gets wrong.
     result.plot()
 
 The functions correspond to the commands of ``recoil``. Results have the keys and the numbers of the
-JSON files. ``recoil help python`` prints the page of the manual.
+JSON files. The manual explains them in docs/python.md.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
 from ._datasets import Dataset, Material
-from ._errors import ComputationError, InputError, one_of, refuse, within
+from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
+from ._options import given, plain, takes_options
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ __all__ = [
 ]
 
 PathLike = Union[str, "os.PathLike[str]"]
+Quantity = Union[float, str]
+"""A number in the stated unit, or a text with a unit of its own: ``"20mm"``."""
 Source = Union[PathLike, Dataset, Sequence[Union[PathLike, Dataset]]]
 Points = Union[Source, "pandas.DataFrame", "npt.ArrayLike"]
 Table = Mapping[str, Any]
@@ -77,7 +80,7 @@ def _toml(value: Any) -> str:
 
 def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) -> _recoil.Inputs:
     """Reads a fit file, or makes a fit from datasets and tables."""
-    given = {key: table for key, table in tables.items() if table is not None}
+    given = {key: plain(key, table) for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
             refuse(
@@ -94,25 +97,6 @@ def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) ->
     return _recoil.parse_fit(text, name + ".toml", [one._data for one in datasets])
 
 
-def _options(
-    replicates: Union[int, str, None],
-    scheme: str,
-    seed: Optional[int],
-    threads: int,
-    solver: str,
-) -> _recoil.Options:
-    one_of("scheme", scheme, ("auto", "parametric", "residual", "wild", "case", "cluster"))
-    one_of("solver", solver, ("fast", "reference"))
-    if replicates != "auto":
-        within("replicates", replicates, 0, 1000000, whole=True)
-        replicates = None if replicates is None else int(replicates)
-    number = "" if replicates is None else str(replicates)
-    within("seed", seed, 0, 2**63 - 1, whole=True)
-    within("threads", threads, 0, 4096, whole=True)
-    seed = None if seed is None else int(seed)
-    return _recoil.Options(number, scheme, seed, int(threads), solver)
-
-
 def load_dataset(folder: PathLike) -> Dataset:
     """Reads and validates a dataset folder, as ``recoil check`` does.
 
@@ -124,7 +108,7 @@ def load_dataset(folder: PathLike) -> Dataset:
 def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
     """``source``, or a dataset made of a frame or arrays and the other arguments in ``stated``."""
     given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
-    if hasattr(source, "to_csv"):
+    if hasattr(source, "columns"):
         frame: Any = source
         for name, column in (("e", e), *((n, given.get(n)) for n in _ARRAYS if n != "d")):
             if column is not None:
@@ -160,6 +144,7 @@ def _is_source(source: Any) -> bool:
     return isinstance(source, (list, tuple)) and all(isinstance(s, one) for s in source) and source != []
 
 
+@takes_options("fit")
 def fit(
     source: Points,
     e: Optional[npt.ArrayLike] = None,
@@ -180,11 +165,13 @@ def fit(
     uncertainty: Optional[Table] = None,
     diagnosis: Optional[Table] = None,
     name: str = "fit",
-    replicates: Union[int, str, None] = None,
-    scheme: str = "",
+    # made by ./run docs: arguments of fit
+    replicates: Optional[Union[int, str]] = None,
+    scheme: Optional[str] = None,
     seed: Optional[int] = None,
     threads: int = 0,
     solver: str = "fast",
+    # end
 ) -> FitResult:
     """Fits all points, with intervals and the two-point comparison, like ``recoil fit``.
 
@@ -198,11 +185,7 @@ def fit(
     the tables of a fit file are dictionaries:
     ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``, ``model={"adhesion": "jkr"}``,
     ``noise``, ``uncertainty``, ``diagnosis``; ``name`` is the name of the fit.
-    ``recoil help fit-file`` lists the keys.
-
-    ``replicates``: number of bootstrap replicates; 0: none; ``"auto"``: until the intervals are
-    precise enough. ``scheme`` and ``seed`` replace those of the fit file. ``threads``: 0: all
-    cores; the numbers do not depend on it. ``solver``: ``"fast"`` or ``"reference"``.
+    docs/fit-file.md lists the keys.
 
     The numbers equal those of the command with the same options. Other Python threads can run
     during the fit.
@@ -210,6 +193,7 @@ def fit(
     Raises ``InputError`` for a mistake in a file or an option, ``ComputationError`` if there is no
     usable result.
     """
+    options = given("fit", locals())
     tables = {
         "parameters": parameters,
         "model": model,
@@ -217,52 +201,55 @@ def fit(
         "uncertainty": uncertainty,
         "diagnosis": diagnosis,
     }
-    given = {"d": d, "particle": particle, "surface": surface, "e_sd": e_sd, "V_sd": V_sd,
-             "events": events, "captured": captured, "series": series,
-             "provenance": provenance, "units": units}
-    inputs = _inputs(_points(source, e, given), tables, name)
-    return FitResult(_recoil.fit(inputs, _options(replicates, scheme, seed, threads, solver)))
+    stated = {"d": d, "particle": particle, "surface": surface, "e_sd": e_sd, "V_sd": V_sd,
+              "events": events, "captured": captured, "series": series,
+              "provenance": provenance, "units": units}
+    return FitResult(_recoil.fit(_inputs(_points(source, e, stated), tables, name), options))
 
 
+@takes_options("model")
 def model(
     source: Source,
     *,
+    # made by ./run docs: arguments of model
     fitted: Optional[PathLike] = None,
+    # end
     parameters: Optional[Table] = None,
     model: Optional[Table] = None,  # noqa: A002
 ) -> Model:
     """Returns the model of a fit for simulation, without fitting it, like ``recoil simulate``.
 
-    ``source``, ``parameters`` and ``model`` are those of ``fit``. The values are the initial ones,
-    or those of the fit.json ``fitted``.
+    ``source``, ``parameters`` and ``model`` are those of ``fit``. The values are the initial ones
+    unless ``fitted`` is given.
 
     Raises ``InputError``, also if ``fitted`` belongs to another fit or has another format.
     """
+    options = given("model", locals())
     inputs = _inputs(source, {"parameters": parameters, "model": model}, "fit")
-    return Model(_recoil.model_of_fit(inputs, "" if fitted is None else os.fspath(fitted)))
+    return Model(_recoil.model_of_fit(inputs, options))
 
 
+@takes_options("coverage")
 def coverage(
     source: Source,
+    # made by ./run docs: arguments of coverage
     datasets: int = 100,
+    replicates: Optional[Union[int, str]] = None,
+    seed: Optional[int] = None,
+    threads: int = 0,
+    # end
     *,
     parameters: Optional[Table] = None,
     model: Optional[Table] = None,  # noqa: A002
     uncertainty: Optional[Table] = None,
-    replicates: Union[int, str, None] = None,
-    scheme: str = "",
-    seed: Optional[int] = None,
-    threads: int = 0,
 ) -> Facts:
-    """Measures how often the intervals contain the known truth in ``datasets`` simulated data sets.
+    """Measures how often the intervals contain the known truth in simulated data sets.
 
     Returns the JSON of ``recoil coverage --json``. Raises ``InputError`` and ``ComputationError``
     as ``fit`` does."""
+    options = given("coverage", locals())
     tables = {"parameters": parameters, "model": model, "uncertainty": uncertainty}
-    within("datasets", datasets, 1, 1000000, whole=True)
-    inputs = _inputs(source, tables, "fit")
-    options = _options(replicates, scheme, seed, threads, "fast")
-    return facts_of(_recoil.coverage(inputs, int(datasets), options))
+    return facts_of(_recoil.coverage(_inputs(source, tables, "fit"), options))
 
 
 def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
@@ -286,65 +273,39 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
     return Comparison(*_recoil.compare(named))
 
 
+@takes_options("pair")
 def pair(
     passages: PathLike,
     *,
+    # made by ./run docs: arguments of pair
     units: Optional[Mapping[str, str]] = None,
     columns: Optional[Mapping[str, str]] = None,
     positive: str = "towards",
-    height: float = 1.0,
-    height_range: float = 1.5,
-    keep_height: bool = False,
-    diameter_tolerance: float = 0.2,
-    velocity_tolerance: float = 0.15,
+    height: Quantity = 1,
+    height_range: Quantity = 1.5,
+    diameter_tolerance: Quantity = 0.2,
+    velocity_tolerance: Quantity = 0.15,
     keep_later: bool = False,
-    threshold: Optional[float] = None,
-    angle: Optional[float] = None,
-    lost_share: Optional[float] = None,
+    threshold: Optional[Quantity] = None,
+    angle: Optional[Quantity] = None,
+    lost_share: Optional[Quantity] = None,
     per_bin: int = 40,
     size_classes: int = 1,
-    size_edges: Sequence[float] = (),
+    size_edges: Optional[Sequence[Quantity]] = None,
     mean_diameter: bool = False,
+    # end
 ) -> Pairing:
     """Finds impacts in the passages of a phase Doppler instrument and averages them into points.
 
-    The options, units and defaults are those of ``recoil pair``; ``recoil help pair`` explains
-    them. ``passages``: a CSV file with one row per passage and the columns ``time``, ``velocity``,
+    ``passages``: a CSV file with one row per passage and the columns ``time``, ``velocity``,
     ``diameter`` and optionally ``tangential_velocity`` and ``series``.
     ``units={"time": "s", "velocity": "m/s"}``: needed if no datapackage.json next to the file
-    states them. ``columns={"velocity": "LDA1"}``: other column names. ``positive``: ``"towards"``
-    the surface or ``"away"`` from it. ``height``: of the measuring plane [mm]. ``threshold`` [m/s];
-    ``angle`` [degrees]; ``size_edges`` [um].
+    states them. ``columns={"velocity": "LDA1"}``: other column names.
 
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
     is found.
     """
-    one_of("positive", positive, ("towards", "away"))
-    within("height", height, 1e-3, 1e3)
-    within("height_range", height_range, 1.01, 10)
-    within("diameter_tolerance", diameter_tolerance, 1e-3, 2)
-    within("velocity_tolerance", velocity_tolerance, 1e-3, 0.5)
-    within("threshold", threshold, 0, 1e4)
-    within("angle", angle, 0, 90)
-    within("lost_share", lost_share, 0, 0.9)
-    within("per_bin", per_bin, 2, 1000000, whole=True)
-    within("size_classes", size_classes, 1, 100, whole=True)
-    edges = [float(edge) for edge in size_edges]
-    if len(edges) == 1 or any(not low < high for low, high in zip([0.0, *edges], edges)):
-        refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")
-    if edges and size_classes != 1:
-        refuse("size_edges and size_classes are both given", "remove one")
-    arguments = {
-        "units": dict(units or {}), "columns": dict(columns or {}),
-        "positive_away": positive == "away", "height": float(height),
-        "height_range": float(height_range), "keep_height": bool(keep_height),
-        "diameter_tolerance": float(diameter_tolerance),
-        "velocity_tolerance": float(velocity_tolerance), "keep_later": bool(keep_later),
-        "threshold": threshold, "angle": angle, "lost_share": lost_share,
-        "per_bin": int(per_bin), "size_classes": int(size_classes), "size_edges": edges,
-        "mean_diameter": bool(mean_diameter),
-    }
-    return Pairing(_recoil.pair(os.fspath(passages), json.dumps(arguments, default=float)))
+    return Pairing(_recoil.pair(os.fspath(passages), given("pair", locals())))
 
 
 def schema(name: str) -> dict[str, Any]:

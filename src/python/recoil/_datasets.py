@@ -8,11 +8,13 @@ import io
 import json
 import math
 import os
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Union
 
 from . import _recoil
 from ._errors import InputError, refuse, refuse_to_replace
+from ._options import numbers_of, plain
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -38,7 +40,7 @@ _COUNTS = ("events", "captured")
 
 def _material(body: str, stated: Any) -> Any:
     """``stated``, or if it is a name, the material of that name in the table of materials."""
-    return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else stated
+    return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else plain(body, stated)
 
 
 def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
@@ -46,7 +48,8 @@ def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
     own: dict[str, Any] = {} if like is None else dict(like._package["recoil"])
     for key, value in given.items():
         if value is not None:
-            own[key] = _material(key, value) if key in ("particle", "surface") else value
+            bodies = key in ("particle", "surface")
+            own[key] = _material(key, value) if bodies else plain(key, value)
     for key in ("particle", "surface", "provenance"):
         if key not in own:
             refuse(f"{key} is not known", f"give {key}=..., or like= a dataset that has it")
@@ -69,17 +72,14 @@ def _series_of(diameters: Any, unit: str) -> list[str]:
         return ["points"] * len(diameters)
 
 
-def _numbers(
+def _cells(
     name: str, values: Any, points: Optional[int], *, empty: bool = False, whole: bool = False
 ) -> list[str]:
     """The CSV cells of one column. ``points``: number of points, None: any; ``empty``: NaN is a
     missing value; ``whole``: whole numbers."""
     import numpy as np
 
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        refuse(f"{name} has an entry that is no number", f"give numbers as {name}")
+    array = numbers_of(name, values, boolean=name == "captured")
     if array.ndim == 0 and points is not None:
         array = np.full(points, float(array))
     if array.ndim != 1 or (points is not None and len(array) != points):
@@ -97,6 +97,29 @@ def _numbers(
             refuse(f"{name}[{i}] is {value}", "give whole numbers")
         cells.append(str(int(value)) if whole else repr(value))
     return cells
+
+
+def _without_masked(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments without the points that are masked in any of them."""
+    import numpy as np
+
+    masks = [np.broadcast_to(one.mask, one.shape) for one in arguments.values()
+             if isinstance(one, np.ma.MaskedArray) and one.ndim == 1]
+    points = {len(mask) for mask in masks}
+    if len(points) != 1 or not any(mask.any() for mask in masks):
+        return dict(arguments)
+    kept = ~np.any(masks, axis=0)
+    left_out = int(len(kept) - kept.sum())
+    warnings.warn(f"{left_out} masked point{'s are' if left_out > 1 else ' is'} left out", stacklevel=4)
+
+    def rows(one: Any) -> Any:
+        if isinstance(one, str) or np.ndim(one) != 1 or len(one) != len(kept):
+            return one
+        if isinstance(one, np.ma.MaskedArray):
+            return one.data[kept]
+        return [entry for entry, keep in zip(one, kept) if keep]
+
+    return {name: rows(one) for name, one in arguments.items()}
 
 
 class Dataset:
@@ -188,14 +211,19 @@ class Dataset:
         ``V``: incident velocity [m/s]; ``e``: restitution [1], NaN if every sphere is captured;
         ``d``: diameter [um]; ``e_sd``, ``V_sd``: standard deviations of ``e`` and ``V``;
         ``events``, ``captured``: number of impacts, and of captured ones. A single number applies
-        to all points. ``series``: names; unless given, the points of each diameter form a series.
+        to all points. Points that are masked in any of the arrays are left out, with a warning.
+        Arrays of complex numbers, booleans (but ``captured``), texts or objects are refused.
+        ``series``: names; unless given, the points of each diameter form a series.
         ``particle``, ``surface``, ``provenance``, ``more``: see ``from_pandas``.
 
         Raises ``InputError``, which names the argument and its entry.
         """
-        velocity = _numbers("V", V, None)
+        rows = _without_masked({"V": V, "e": e, "d": d, "e_sd": e_sd, "V_sd": V_sd,
+                                "events": events, "captured": captured, "series": series})
+        velocity = _cells("V", rows["V"], None)
         points = len(velocity)
-        diameters = _numbers("d", d, points)
+        diameters = _cells("d", rows["d"], points)
+        series = rows["series"]
         if series is None:
             names = _series_of(diameters, "um")
         else:
@@ -203,12 +231,12 @@ class Dataset:
         if len(names) != points:
             refuse(f"series has {len(names)} entries and V has {points}", "give one per point")
         columns = {"series": names, "diameter": diameters, "incident_velocity": velocity,
-                   "restitution": _numbers("e", e, points, empty=captured is not None)}
-        given = {"restitution_sd": ("e_sd", e_sd), "velocity_sd": ("V_sd", V_sd),
-                 "events": ("events", events), "captured": ("captured", captured)}
-        for column, (argument, values) in given.items():
-            if values is not None:
-                columns[column] = _numbers(argument, values, points, whole=column in _COUNTS)
+                   "restitution": _cells("e", rows["e"], points, empty=captured is not None)}
+        given = {"restitution_sd": "e_sd", "velocity_sd": "V_sd", "events": "events",
+                 "captured": "captured"}
+        for column, argument in given.items():
+            if rows[argument] is not None:
+                columns[column] = _cells(argument, rows[argument], points, whole=column in _COUNTS)
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(columns)

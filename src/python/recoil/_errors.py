@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 
 class InputError(ValueError):
@@ -63,23 +63,3 @@ def refuse_to_replace(*files: Path) -> None:
     for file in files:
         if file.exists():
             refuse(f"{file} is there", "name another place, or pass replace=True")
-
-
-def within(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
-    """Raises ``InputError`` unless ``value`` is None or a (whole) number from ``least`` to
-    ``most``."""
-    if value is None:
-        return
-    try:
-        good = bool(least <= value <= most) and (not whole or value == int(value))
-    except (TypeError, ValueError, OverflowError):
-        good = False
-    if not good:
-        kind = "a whole number" if whole else "a number"
-        refuse(f"{name} is {value!r}", f"give {kind} from {least} to {most}")
-
-
-def one_of(name: str, word: Any, known: tuple[str, ...]) -> None:
-    """Raises ``InputError`` unless ``word`` is one of ``known`` or empty (not given)."""
-    if word not in ("", *known):
-        refuse(f"{name} is {word!r}", f"choose one of {', '.join(known)}")

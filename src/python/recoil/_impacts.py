@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Optional
 
 from . import _recoil
 from ._facts import Facts, facts_of
+from ._options import numbers_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -79,9 +80,7 @@ class Model:
         """
         import numpy as np
 
-        velocity, diameter = np.broadcast_arrays(
-            np.asarray(V, dtype=np.float64), np.asarray(d, dtype=np.float64)
-        )
+        velocity, diameter = np.broadcast_arrays(numbers_of("V", V), numbers_of("d", d))
         shape = velocity.shape
         squared, captured, columns = self._model.simulate(
             np.ascontiguousarray(velocity).reshape(-1),
@@ -111,4 +110,5 @@ class Model:
 
         Raises ``ComputationError`` if the impact has no solution.
         """
-        return facts_of(self._model.impact(float(V), float(d), dataset))
+        return facts_of(
+            self._model.impact(float(numbers_of("V", V)), float(numbers_of("d", d)), dataset))

@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
 from . import _recoil
-from ._errors import refuse, refuse_to_replace, within
+from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
+from ._options import given, takes_options
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from ._impacts import Array
 
 PathLike = Union[str, "os.PathLike[str]"]
+Quantity = Union[float, str]
 
 
 _COMPILED = ("_compiled", "_fitted", "_pictures")
@@ -156,8 +158,8 @@ class Parameter:
 
 class FitResult(_Reported):
     """A fit: the keys of fit.json are attributes (``result.parameters.C_H.value``,
-    ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); ``recoil help
-    fit-json`` lists them. The names of lmfit's ModelResult also work."""
+    ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); docs/fit-json.md
+    lists them. The names of lmfit's ModelResult also work."""
 
     fit: Facts
     dataset: Facts
@@ -199,35 +201,35 @@ class FitResult(_Reported):
         """One impact with the fitted values in detail: ``Model.impact``."""
         return self._fitted.impact(V, d, dataset=dataset)
 
-    def diagnose(self, *, seed: Optional[int] = None, threads: int = 0) -> "Diagnosis":
-        """Finds systematic errors of the model and their causes, like ``recoil diagnose``.
+    @takes_options("diagnose")
+    def diagnose(
+        self,
+        *,
+        # made by ./run docs: arguments of diagnose
+        seed: Optional[int] = None,
+        threads: int = 0,
+        # end
+    ) -> "Diagnosis":
+        """Finds systematic errors of the model and their causes, like ``recoil diagnose``."""
+        return Diagnosis(self._compiled.diagnose(given("diagnose", locals())))
 
-        ``seed``: of the simulated data sets; by default that of the fit file. ``threads``: 0: all
-        cores.
-        """
-        within("seed", seed, 0, 2**63 - 1, whole=True)
-        within("threads", threads, 0, 4096, whole=True)
-        return Diagnosis(self._compiled.diagnose(seed, threads))
-
+    @takes_options("predict")
     def predict(
         self,
         sizes: PathLike,
         *,
-        unit: str = "",
-        height_mm: Optional[float] = None,
+        # made by ./run docs: arguments of predict
+        unit: Optional[str] = None,
+        height_mm: Optional[Quantity] = None,
         midpoints: bool = False,
-        dataset: str = "",
+        dataset: Optional[str] = None,
+        # end
     ) -> "Prediction":
         """Predicts the mean restitution of a mixture of sizes, like ``recoil predict``.
 
-        ``sizes``: a CSV file with the columns diameter and count. ``unit``: of its diameters; by
-        default that of the datapackage.json next to it, else um. ``height_mm``: height of the
-        measuring plane [mm]. ``midpoints``: use only the mid-point of every size bin.
-        ``dataset``: id of a dataset of the fit; the first by default.
+        ``sizes``: a CSV file with the columns diameter and count.
         """
-        within("height_mm", height_mm, 0, 1000)
-        predicted = self._compiled.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
-        return Prediction(predicted)
+        return Prediction(self._compiled.predict(os.fspath(sizes), given("predict", locals())))
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, ends of the recommended interval and
@@ -439,7 +441,7 @@ class FitResult(_Reported):
 
 class Diagnosis(_Reported):
     """The systematic errors of a model and their causes. The keys of diagnosis.json are attributes
-    (``verdict``, ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
+    (``verdict``, ``named``, ``candidates``); docs/diagnosis-json.md lists them."""
 
     verdict: str
     headline: str

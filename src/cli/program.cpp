@@ -1,0 +1,161 @@
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/quoting.hpp"
+#include "data/text.hpp"
+
+namespace recoil {
+
+/// A command with the values of its options.
+struct Program::Entry {
+  std::string name, meaning;
+  Action action;
+  CLI::App* app = nullptr;
+  std::map<const OptionRow*, std::vector<std::string>> values = {};
+
+  GivenOptions given() const;
+};
+
+namespace {
+
+/// A message about the first unknown --option of a command, with the nearest known one; empty if
+/// all are known.
+std::string unknown_option(const std::string& command, const std::vector<std::string>& words) {
+  std::vector<std::string> known = {"--help"};
+  for (const OptionRow* row : options_of(command)) known.emplace_back(row->name);
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string word = words[i].substr(0, words[i].find('='));
+    if (!word.starts_with("--") || word == "--") continue;
+    if (std::ranges::find(known, word) != known.end()) continue;
+    const std::string near = nearest_word(word, known);
+    return fmt::format("unknown option '{}' of recoil {}; {}", word, command,
+                       near.empty() ? fmt::format("see recoil {} --help", command)
+                                    : fmt::format("did you mean {}?", near));
+  }
+  return "";
+}
+
+/// The message of CLI11 as one line, with a suggestion.
+std::string one_line(const CLI::ParseError& error, const CLI::App& program,
+                     const std::vector<std::string>& words) {
+  if (words.empty()) return "a command is missing; recoil --help lists them";
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  if (words[0].starts_with('-')) return fmt::format("{}; see recoil --help", message);
+  std::vector<std::string> known;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    known.push_back(command->get_name());
+    if (known.back() != words[0]) continue;
+    // Other words of a command are options of another one.
+    const std::string option =
+        command->get_allow_extras() ? "" : unknown_option(command->get_name(), words);
+    return option.empty() ? fmt::format("{}; see recoil {} --help", message, words[0]) : option;
+  }
+  const std::string near = nearest_word(words[0], known);
+  return fmt::format("unknown command '{}'; {}", words[0],
+                     near.empty() ? "see recoil --help" : fmt::format("did you mean {}?", near));
+}
+
+/// Adds an option of the table to a command.
+void add(CLI::App& app, const OptionRow& row, std::vector<std::string>& values) {
+  const OptionType& type = row.type;
+  const std::string name(row.name);
+  std::string meaning(row.meaning);
+  if (!row.default_text().empty()) meaning = meaning_words(row);
+  if (type.is_flag()) {
+    CLI::Option* const flag = app.add_flag_callback(
+        name, [&values] { values.clear(); }, meaning);
+    if (row.is_hidden()) flag->group("");
+    return;
+  }
+  CLI::Option* const option = app.add_option(name, values, meaning);
+  std::string value = row.is_argument() ? "" : value_words(type);
+  std::erase(value, '`');
+  option->type_name(value);
+  option->required(row.is_required());
+  if (row.is_hidden()) option->group("");
+  if (type.commas) option->delimiter(',');
+  const bool repeats = type.most > 1 && !type.commas && !row.is_argument();
+  if (type.most == 1 || repeats) option->allow_extra_args(false);
+  if (repeats) {
+    option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  } else {
+    option->expected(static_cast<int>(type.least), static_cast<int>(type.most));
+  }
+  option->check([&type](const std::string& text) -> std::string {
+    const std::string expected = expected_instead(type, text);
+    return expected.empty() ? "" : fmt::format("{} is not {}", quote(text), expected);
+  });
+}
+
+}  // namespace
+
+GivenOptions Program::Entry::given() const {
+  GivenOptions given(name);
+  for (const auto& [row, texts] : values) {
+    if (app->count(std::string(row->name)) > 0) given.set(row->name, texts);
+  }
+  given.other_words = app->remaining();
+  return given;
+}
+
+Program::Program(const std::string& meaning, const std::string& footer, const std::string& version)
+    : app_(std::make_unique<CLI::App>(meaning, "recoil")) {
+  app_->set_version_flag("--version", "recoil " + version);
+  app_->require_subcommand(1);
+  app_->footer(footer);
+}
+
+Program::~Program() = default;
+
+void Program::command(const std::string& name, const std::string& meaning,
+                      const std::string& footer, Action action) {
+  CLI::App* const app = app_->add_subcommand(name, meaning);
+  app->footer(footer.substr(footer.starts_with('\n') ? 1 : 0));
+  entries_.push_back({name, meaning, std::move(action), app});
+  for (const OptionRow* row : options_of(name)) add(*app, *row, entries_.back().values[row]);
+}
+
+void Program::command_with_other_words(const std::string& name, const std::string& meaning,
+                                       const std::string& footer, Action action) {
+  command(name, meaning, footer, std::move(action));
+  entries_.back().app->allow_extras();
+}
+
+GivenOptions Program::parse(const std::vector<std::string>& words) {
+  try {
+    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success&) {  // --help, --version
+    throw;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(one_line(error, *app_, words));
+  }
+  const auto parsed =
+      std::ranges::find_if(entries_, [](const Entry& entry) { return entry.app->parsed(); });
+  return parsed->given();
+}
+
+void Program::run(const std::vector<std::string>& words) {
+  try {
+    const GivenOptions given = parse(words);
+    std::ranges::find(entries_, given.command(), &Entry::name)->action(given);
+  } catch (const CLI::Success& request) {
+    app_->exit(request);
+  }
+}
+
+std::string Program::help() const { return app_->help(); }
+
+std::vector<Program::CommandText> Program::commands() const {
+  std::vector<CommandText> texts;
+  for (const Entry& entry : entries_) texts.push_back({entry.name, entry.meaning});
+  return texts;
+}
+
+}  // namespace recoil

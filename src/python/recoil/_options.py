@@ -1,0 +1,102 @@
+"""Keyword arguments as values that the compiled part takes."""
+
+from __future__ import annotations
+
+import math
+import numbers
+import os
+import textwrap
+from typing import TYPE_CHECKING, Any, Callable, Mapping, TypeVar
+
+from . import _recoil
+from ._errors import refuse
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+_DEEPEST = 16  # tables in tables
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def plain(name: str, value: Any, depth: int = 0) -> Any:
+    """``value`` with numbers of NumPy as numbers of Python, and arrays as lists.
+
+    Raises ``InputError`` for what is no number, text, list or dictionary.
+    """
+    if depth > _DEEPEST:
+        refuse(f"{name} is nested too deeply", "give a table of numbers and texts")
+    if isinstance(value, Mapping):
+        return {str(key): plain(f"{name}.{key}", one, depth + 1) for key, one in value.items()}
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(f"{name}[{i}]", one, depth + 1) for i, one in enumerate(value)]
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, str) and not any("\ud800" <= c <= "\udfff" for c in value):
+        return value
+    if isinstance(value, bool) or (isinstance(value, int) and -(2**63) <= value < 2**63):
+        return value
+    if isinstance(value, numbers.Real) and not isinstance(value, int) and math.isfinite(value):
+        return float(value)
+    shown = "beyond 64 bits" if isinstance(value, int) else ascii(str(value)[:40])
+    refuse(f"{name} is {shown}", "give a finite number or a text")
+
+
+def numbers_of(name: str, values: Any, *, boolean: bool = False) -> npt.NDArray[np.float64]:
+    """``values`` as an array of numbers. ``boolean``: True and False are 1 and 0.
+
+    Raises ``InputError`` for complex numbers, booleans, texts, objects and masked entries, which
+    NumPy would turn into other numbers.
+    """
+    import numpy as np
+
+    if hasattr(values, "to_numpy") and not isinstance(values.dtype, np.dtype):
+        values = values.to_numpy(dtype=np.float64, na_value=np.nan)  # a nullable column of pandas
+    try:
+        array = np.asanyarray(values)
+    except ValueError:  # lists of different lengths
+        array = np.asarray(None)
+    if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
+        refuse(f"{name} has masked entries", "leave them out")
+    if array.dtype.kind not in ("iufb" if boolean else "iuf"):
+        what = {"c": "complex numbers", "b": "booleans"}.get(
+            array.dtype.kind, "an entry that is no number")
+        refuse(f"{name} has {what}", f"give real numbers as {name}")
+    return np.asarray(array, dtype=np.float64)
+
+
+def _texts(name: str, value: Any, several: bool) -> list[str]:
+    """The words that state ``value`` on the command line."""
+    value = plain(name, value)
+    if isinstance(value, dict):
+        return [f"{key}={one}" for key, one in value.items()]
+    if isinstance(value, list) and not several:
+        refuse(f"{name} is {value}", "give one value")
+    words = value if isinstance(value, list) else [value]
+    # 199.0 is a whole number
+    return [str(int(one) if isinstance(one, float) and one.is_integer() else one) for one in words]
+
+
+def given(function: str, arguments: Mapping[str, Any]) -> _recoil.Options:
+    """The options among the ``arguments`` of a function.
+
+    Raises ``InputError`` for a value that an option does not accept.
+    """
+    return _recoil.Options(function, {
+        name: _texts(name, arguments[name], several)
+        for name, _, several in _recoil.option_meanings(function) if arguments[name] is not None})
+
+
+def takes_options(function: str) -> Callable[[_Function], _Function]:
+    """Adds the meanings of the options of a function to its docstring."""
+
+    def documented(decorated: _Function) -> _Function:
+        lines = [f"``{name}``: {meaning}." for name, meaning, _ in _recoil.option_meanings(function)]
+        text = "\n".join(textwrap.fill(line, 95, subsequent_indent="    ") for line in lines)
+        own = textwrap.dedent("    " + (decorated.__doc__ or ""))
+        decorated.__doc__ = f"{own.rstrip()}\n\nOptions, as those of the command:\n\n{text}\n"
+        return decorated
+
+    return documented
