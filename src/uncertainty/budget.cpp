@@ -114,7 +114,7 @@ class BudgetMaker {
   void add(ErrorBudget& budget, BudgetEntry entry, double square) const {
     if (!(square > 0.0)) return;
     entry.sd = std::sqrt(square);
-    budget.entries.push_back(std::move(entry));
+    budget.entries.push_back(entry);
   }
 
   /// Adds the parts of the points' errors. With a the parts of the whitened residuals and W the
