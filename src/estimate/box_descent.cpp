@@ -66,10 +66,10 @@ class BoxedStep {
     double part = 1.0;
     Eigen::Index met = -1;
     for (std::size_t k = 0; k < free.size(); ++k) {
-      const double way = by(static_cast<Eigen::Index>(k));
-      const double room = way > 0.0 ? high_(free[k]) - d_(free[k]) : low_(free[k]) - d_(free[k]);
-      if (!(std::abs(room) < part * std::abs(way))) continue;
-      part = std::abs(room) / std::abs(way);
+      const double step = by(static_cast<Eigen::Index>(k));
+      const double room = step > 0.0 ? high_(free[k]) - d_(free[k]) : low_(free[k]) - d_(free[k]);
+      if (!(std::abs(room) < part * std::abs(step))) continue;
+      part = std::abs(room) / std::abs(step);
       met = free[k];
     }
     for (std::size_t k = 0; k < free.size(); ++k) {
@@ -150,7 +150,7 @@ class BoxDescent {
         result_.theta = std::move(trial.theta);  // without an evaluation
         Eigen::VectorXd::Map(result_.residuals.data(), expected.size()) = expected;
         result_.sum_of_squares = expected.squaredNorm();
-        return ended("the rest of the way is short");
+        return ended("within the requested tolerance");
       }
       const bool answered = ask(trial);
       const double change = result_.sum_of_squares - trial.sum_of_squares;

@@ -47,7 +47,7 @@ class CaptureSearch {
   const CaptureVelocity& result() const { return result_; }
 
   /// Updates the bracket with point `i`, evaluated at next().
-  void learn(const PointPredictor& predictor, std::size_t i) {
+  void update(const PointPredictor& predictor, std::size_t i) {
     const ImpactResult& impact = predictor.at(i);
     done_ = !impact.usable() || ++iterations_ == most_iterations;
     if (!impact.usable()) return;
@@ -125,7 +125,7 @@ std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
     if (open.empty()) break;
     PointPredictor predictor(model, std::move(points), Effects::of_nature);
     predictor.evaluate(theta, true);
-    for (std::size_t k = 0; k < open.size(); ++k) searches[open[k]].learn(predictor, k);
+    for (std::size_t k = 0; k < open.size(); ++k) searches[open[k]].update(predictor, k);
   }
   std::vector<CaptureVelocity> results;
   for (const CaptureSearch& search : searches) results.push_back(search.result());

@@ -110,19 +110,19 @@ class StepHistory {
   }
 
   /// The mixed step to take, given the Gauss-Newton step `d`.
-  Eigen::VectorXd way(const Eigen::VectorXd& d) {
+  Eigen::VectorXd mixed_step(const Eigen::VectorXd& d) {
     if (last_step_.size() > 0) {
       add_column(step_changes_, d - last_step_);
-      add_column(ways_, last_way_);
+      add_column(mixed_steps_, last_mixed_step_);
     }
     last_step_ = d;
-    last_way_ = d;
-    if (ways_.cols() > 0) {
+    last_mixed_step_ = d;
+    if (mixed_steps_.cols() > 0) {
       const Eigen::MatrixXd scaled = scale_.cwiseInverse().asDiagonal() * step_changes_;
       const Eigen::VectorXd part = scaled.colPivHouseholderQr().solve(d.cwiseQuotient(scale_));
-      last_way_ -= (ways_ + step_changes_) * part;
+      last_mixed_step_ -= (mixed_steps_ + step_changes_) * part;
     }
-    return last_way_;
+    return last_mixed_step_;
   }
 
  private:
@@ -135,8 +135,8 @@ class StepHistory {
     columns = std::move(next);
   }
 
-  Eigen::VectorXd scale_, last_step_, last_way_;
-  Eigen::MatrixXd step_changes_, ways_;
+  Eigen::VectorXd scale_, last_step_, last_mixed_step_;
+  Eigen::MatrixXd step_changes_, mixed_steps_;
 };
 
 }  // namespace
@@ -212,7 +212,7 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
       break;
     }
     if (!history) history.emplace(step->d);
-    auto next = method.try_step(result, history->way(step->d));
+    auto next = method.try_step(result, history->mixed_step(step->d));
     if (!next) break;
     auto next_step = method.step_from(*next);
     if (!next_step) return std::nullopt;
@@ -236,7 +236,7 @@ void finish_by_gauss_newton(const LeastSquaresProblem& problem,
   if (!step) return;
   StepHistory history(step->d);
   for (int count = 0; count < most_steps && method.moves(result, step->d) > all_digits; ++count) {
-    auto next = method.try_step(result, history.way(step->d));
+    auto next = method.try_step(result, history.mixed_step(step->d));
     if (!next) return;
     auto next_step = method.step_from(*next);
     if (!next_step || !(next_step->length < step->length)) return;

@@ -183,9 +183,9 @@ std::vector<PointConditions> Observations::conditions() const {
   return all;
 }
 
-bool Observations::share(SharedBy way) const {
+bool Observations::share(SharedBy by) const {
   return std::any_of(sources.begin(), sources.end(),
-                     [way](const ErrorSource* source) { return source->shared == way; });
+                     [by](const ErrorSource* source) { return source->shared == by; });
 }
 
 bool Observations::share_errors() const {

@@ -29,7 +29,7 @@ struct Observations {
   Observations subset(std::span<const std::size_t> indices) const;
 
   /// Do points share an error in this way?
-  bool share(SharedBy way) const;
+  bool share(SharedBy by) const;
   /// Do points share any error?
   bool share_errors() const;
 

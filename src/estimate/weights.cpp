@@ -35,11 +35,11 @@ double error_step(double relative) {
 }
 
 /// Renews weights. It collects all conditions at which it needs the model, so that they are
-/// simulated in one batch, and reads the answers in the same order.
-class Renewal {
+/// simulated in one batch, and reads the predictions in the same order.
+class WeightUpdate {
  public:
   /// @param inputs false: only the scatter from impact to impact
-  Renewal(const Observations& data, Weights before, bool inputs)
+  WeightUpdate(const Observations& data, Weights before, bool inputs)
       : data_(data), weights_(std::move(before)), inputs_(inputs) {
     const std::vector<bool> mixed = among_captures(data.points);
     mixed_ = std::find(mixed.begin(), mixed.end(), true) != mixed.end();
@@ -50,7 +50,7 @@ class Renewal {
 
   /// The conditions besides the points themselves at which predictions are needed. `points` may
   /// have the results at the points.
-  std::vector<PointConditions> questions(const PointPredictor& points) {
+  std::vector<PointConditions> sample_points(const PointPredictor& points) {
     std::vector<PointConditions> all;
     scatters_.assign(data_.points.size(), mixed_);
     for (std::size_t i = 0; mixed_ && points.keeps_answers() && i < scatters_.size(); ++i) {
@@ -79,9 +79,9 @@ class Renewal {
   }
 
   /// @param at the predicted e^2 of the points
-  /// @param beside the answers to `questions`
+  /// @param beside the predictions at `sample_points`
   /// @param free_count number of free parameters
-  Weights learned(const std::vector<double>& at, const std::vector<Prediction>& beside,
+  Weights updated(const std::vector<double>& at, const std::vector<Prediction>& beside,
                   int free_count) && {
     auto next = beside.begin();
     const auto local = [&](double middle, double h) {
@@ -285,32 +285,32 @@ class Renewal {
   std::vector<bool> scatters_;
 };
 
-/// The predicted e^2 at the points, and the predictions at `Renewal::questions`.
-struct Answers {
+/// The predicted e^2 at the points, and the predictions at `WeightUpdate::sample_points`.
+struct ModelValues {
   std::vector<double> at;
   std::vector<Prediction> beside;
 };
 
-/// Evaluates the model for `renewal`; nullopt if an impact cannot be solved. The fit needs the
+/// Evaluates the model for `update`; nullopt if an impact cannot be solved. The fit needs the
 /// gradients at the same theta next, so they are computed at once if `points` keeps them.
-std::optional<Answers> ask(const ImpactModel& model, std::span<const double> theta,
-                           PointPredictor& points, Renewal& renewal) {
-  Answers answers{std::vector<double>(points.size()), {}};
+std::optional<ModelValues> evaluate_model(const ImpactModel& model, std::span<const double> theta,
+                                          PointPredictor& points, WeightUpdate& update) {
+  ModelValues values{std::vector<double>(points.size()), {}};
   std::atomic<bool> answered = true;
   const auto take = [&](std::size_t first, std::span<const ImpactResult> block) {
     for (std::size_t k = 0; k < block.size(); ++k) {
       if (!block[k].usable()) answered = false;
-      answers.at[first + k] = block[k].restitution_squared;
+      values.at[first + k] = block[k].restitution_squared;
     }
   };
   points.evaluate_blocks(theta, points.keeps_answers(), take);
   if (!answered) return std::nullopt;
-  std::vector<PointConditions> questions = renewal.questions(points);
-  if (!questions.empty()) answers.beside = predict(model, theta, std::move(questions), false);
-  for (const Prediction& answer : answers.beside) {
-    if (!answer.usable()) return std::nullopt;
+  std::vector<PointConditions> beside = update.sample_points(points);
+  if (!beside.empty()) values.beside = predict(model, theta, std::move(beside), false);
+  for (const Prediction& one : values.beside) {
+    if (!one.usable()) return std::nullopt;
   }
-  return answers;
+  return values;
 }
 
 /// Sets (V* / V)^2 of every point at `theta`.
@@ -369,37 +369,37 @@ std::optional<Weights> weights_at(const ImpactModel& model, const Observations& 
                                   Weights before, std::span<const double> theta,
                                   PointPredictor& points) {
   if (!data.noise.sd_stated) set_proximities(model, data, theta, before);
-  Renewal renewal(data, std::move(before), true);
-  const auto answers = ask(model, theta, points, renewal);
-  if (!answers) return std::nullopt;
-  return std::move(renewal).learned(answers->at, answers->beside, model.free_count());
+  WeightUpdate update(data, std::move(before), true);
+  const auto values = evaluate_model(model, theta, points, update);
+  if (!values) return std::nullopt;
+  return std::move(update).updated(values->at, values->beside, model.free_count());
 }
 
 std::optional<Weights> with_event_spread_at(const ImpactModel& model, const Observations& data,
                                             Weights before, std::span<const double> theta) {
   if (!(before.noise.event_spread > 0.0)) return before;
-  Renewal renewal(data, std::move(before), false);
+  WeightUpdate update(data, std::move(before), false);
   PointPredictor points(model, data.conditions());
-  const auto answers = ask(model, theta, points, renewal);
-  if (!answers) return std::nullopt;
-  return std::move(renewal).learned(answers->at, answers->beside, model.free_count());
+  const auto values = evaluate_model(model, theta, points, update);
+  if (!values) return std::nullopt;
+  return std::move(update).updated(values->at, values->beside, model.free_count());
 }
 
 std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
                                             const Observations& data, const Weights& weights,
                                             std::span<const double> C) {
   if (!(weights.noise.event_spread > 0.0) || C.empty()) return {};
-  Renewal renewal(data, weights, false);
+  WeightUpdate update(data, weights, false);
   const auto points = std::make_shared<PointPredictor>(model, data.conditions());
-  const auto answers = ask(model, theta, *points, renewal);
-  if (!answers) return {};
+  const auto values = evaluate_model(model, theta, *points, update);
+  if (!values) return {};
   const std::size_t n = data.points.size();
   const std::size_t p = theta.size();
   constexpr double step = 0.1;
   std::vector<double> deviance;             // T at ln omega - step, 0, + step
   std::vector<std::vector<double>> slopes;  // half of dT / d theta there
   for (const double by : {-step, 0.0, step}) {
-    const Weights there = renewal.with_spread(answers->at, answers->beside, std::exp(by));
+    const Weights there = update.with_spread(values->at, values->beside, std::exp(by));
     const LeastSquaresProblem problem = impact_problem(model, data, there, points);
     std::vector<double> residuals(problem.residual_count);
     std::vector<double> jacobian(problem.residual_count * p);

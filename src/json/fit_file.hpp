@@ -428,9 +428,9 @@ struct FitFile {
        "its unit")) };
 
   /// One method of estimating the three parameters of the paper's model.
-  struct Compared { RECOIL_RESULT(
+  struct CalibrationRow { RECOIL_RESULT(
       (std::string, dataset, "dataset"),
-      (ComparisonWay, id, "two points, all points with the same f0, or all points with f0 fitted"),
+      (CalibrationKind, id, "two points, all points with the same f0, or all points with f0 fitted"),
       (OrReason<double>, f0, "f0 at the reference diameter", "N/m"),
       (OrReason<double>, C_H, "Hertz damping C_H", "1"),
       (OrReason<double>, C_A, "adhesion damping C_A", "1"),
@@ -517,7 +517,7 @@ struct FitFile {
     (OrAbsent<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
      "with these points, noise and captures; absent if it was not counted"),
     (OrNull<Posterior>, posterior, "null without `posterior = true`"),
-    (std::vector<Compared>, comparison, "two points against all points: three rows per dataset"),
+    (std::vector<CalibrationRow>, comparison, "two points against all points: three rows per dataset"),
     (OrReason<TwoPoint>, two_point, "the two-point calibration of the first dataset"),
     (Full, full, "the same comparison for the full fit, first dataset"),
     (Named<TwoPoint>, two_point_by_dataset, "the same, by dataset"),

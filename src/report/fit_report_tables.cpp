@@ -225,10 +225,10 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
     const auto f0 = row.theta.empty() ? std::nullopt
                                       : std::optional(adhesion_force_under(f.model, row.theta, d));
     table.rows.push_back(
-        {row.row == ComparisonWay::two_point
+        {row.row == CalibrationKind::two_point
              ? say("two points of {}", diameter_sentence(comparison.result.diameter))
-         : row.row == ComparisonWay::full ? say("all points, same {f0}")
-                                          : say("all points, {f0} fitted"),
+         : row.row == CalibrationKind::full ? say("all points, same {f0}")
+                                            : say("all points, {f0} fitted"),
          number_at(row.theta, f.model.slot_C_H[d], significant(3)),
          number_at(row.theta, f.model.slot_C_A[d], significant(3)),
          cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, significant(2))),

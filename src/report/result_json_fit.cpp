@@ -508,7 +508,7 @@ OrReason<double> compared_error(const ImpactModel& model, const ComparisonRow& r
                                 std::size_t slot) {
   if (!row.failure.empty()) return {std::nullopt, row.failure};
   if (row.standard_errors.empty()) {
-    return {std::nullopt, row.row == ComparisonWay::two_point
+    return {std::nullopt, row.row == CalibrationKind::two_point
                               ? "two points leave nothing to estimate an error from"
                           : row.noise_known ? "the covariance is singular"
                                             : "the noise is unknown"};
@@ -518,11 +518,11 @@ OrReason<double> compared_error(const ImpactModel& model, const ComparisonRow& r
           model.slots[slot].free ? "the estimate rests on a bound" : "the parameter is fixed"};
 }
 
-FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& comparison,
-                                 const ComparisonRow& row) {
+FitFile::CalibrationRow compared_entry(const Analysis& a, const TwoPointComparison& comparison,
+                                       const ComparisonRow& row) {
   const ImpactModel& model = a.fitted.model;
   const std::size_t d = comparison.dataset;
-  FitFile::Compared out;
+  FitFile::CalibrationRow out;
   out.dataset = a.datasets[d].id;
   out.id = row.row;
   const std::optional<double> f0 =

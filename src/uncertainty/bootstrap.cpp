@@ -26,7 +26,7 @@ constexpr std::size_t most_suspects = 3;
 constexpr int most_compared = 999;      // successful replicates in the comparison
 constexpr double clearly_unlike = 3.0;  // standard errors of a mean
 
-/// Sums of a point's disturbance over some replicates.
+/// Sums of a point's perturbation over some replicates.
 struct Moments {
   double count = 0.0, sum = 0.0, square = 0.0;
 
@@ -53,7 +53,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   std::vector<Moments> failed(n);
   std::vector<Moments> usual(n);
   const auto add = [&](std::uint64_t replicate, std::vector<Moments>& to) {
-    const std::vector<double> values = disturbance(plan, seed, replicate);
+    const std::vector<double> values = perturbation(plan, seed, replicate);
     for (std::size_t i = 0; i < n; ++i) to[i].add(values[i]);
   };
   for (std::size_t k = 0; k < result.index.size() && k < most_compared; ++k) {

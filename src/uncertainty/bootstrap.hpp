@@ -14,7 +14,7 @@
 
 namespace recoil {
 
-/// Finds the data that made the replicates `index` fail: the points whose mean disturbance there
+/// Finds the data that made the replicates `index` fail: the points whose mean perturbation there
 /// differs most, in standard errors, from that in the other replicates below `replicates`.
 FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed, int replicates,
                                  std::vector<std::uint64_t> index);

@@ -15,8 +15,8 @@ namespace recoil {
 struct FailedReplicates {
   struct Suspect {
     std::size_t point = 0;        ///< index into the observations
-    double failed = 0.0;          ///< mean disturbance of the point in the replicates that failed
-    double usual = 0.0;           ///< its mean disturbance in the others
+    double failed = 0.0;          ///< mean perturbation of the point in the replicates that failed
+    double usual = 0.0;           ///< its mean perturbation in the others
     bool clearly_unlike = false;  ///< the means differ by more than three standard errors
   };
   std::vector<std::uint64_t> index;  ///< every failed replicate, ascending

@@ -254,8 +254,8 @@ void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t inde
   assert(false && "a plan names its scheme");
 }
 
-std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
-                                std::uint64_t index) {
+std::vector<double> perturbation(const ResamplingPlan& plan, std::uint64_t seed,
+                                 std::uint64_t index) {
   const std::size_t n = plan.fitted->data.points.size();
   std::vector<double> values(n, 0.0);
   if (plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster) {

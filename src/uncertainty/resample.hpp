@@ -86,10 +86,10 @@ void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
               Observations& sample);
 
-/// The disturbance of each point in replicate `index` [points]: (e* - e_model) / sd, or for cases
+/// The perturbation of each point in replicate `index` [points]: (e* - e_model) / sd, or for cases
 /// and clusters how often the point was drawn, minus one.
-std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
-                                std::uint64_t index);
+std::vector<double> perturbation(const ResamplingPlan& plan, std::uint64_t seed,
+                                 std::uint64_t index);
 
 /// The covariance of a fit `run` to data like those of `plan` [p x p], computed in the same way for
 /// the fit and its replicates: from (J'J)^-1, or as the sandwich covariance if the scheme allows

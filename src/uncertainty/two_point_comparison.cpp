@@ -145,14 +145,14 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
     }
     comparison.rows = {std::move(two)};
   }
-  for (const ComparisonWay way : {ComparisonWay::full, ComparisonWay::full_f0_free}) {
-    const bool free = way == ComparisonWay::full_f0_free;
+  for (const CalibrationKind calibration : {CalibrationKind::full, CalibrationKind::full_f0_free}) {
+    const bool free = calibration == CalibrationKind::full_f0_free;
     std::optional<FitResult> other;
     if (!adhesion_is(fitted.model, free)) other = with_adhesion(fitted, free);
     if (other && !comparisons.empty()) comparisons.front().handovers += other->handovers;
     for (TwoPointComparison& comparison : comparisons) {
       ComparisonRow& row = comparison.rows.emplace_back();
-      row.row = way;
+      row.row = calibration;
       if (other && !other->usable) {
         row.failure = other->failure;
         continue;

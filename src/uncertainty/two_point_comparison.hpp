@@ -13,18 +13,18 @@
 namespace recoil {
 
 /// The compared methods of estimating the three parameters of the paper's model.
-enum class ComparisonWay {
+enum class CalibrationKind {
   two_point,     ///< the paper's iteration, with f0 of eq. 12 or of the fit file
   full,          ///< all points, with the same f0
   full_f0_free,  ///< all points, with f0 fitted
 };
-constexpr auto names_of_values(ComparisonWay) {
+constexpr auto names_of_values(CalibrationKind) {
   return name_list("two_point", "full", "full_f0_free");
 }
 
 /// The result of one method.
 struct ComparisonRow {
-  ComparisonWay row = ComparisonWay::two_point;
+  CalibrationKind row = CalibrationKind::two_point;
   std::vector<double> theta;   ///< [slots]; empty if the method failed
   std::string failure;         ///< reason of a failure
   std::optional<double> rmse;  ///< root mean square of e - e_model at all points of the dataset [1]

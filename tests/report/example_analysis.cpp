@@ -153,9 +153,9 @@ void add_two_point(Analysis& a, std::size_t k, double C_H, double C_A) {
   comparison.full_rmse = 0.029;
   comparison.full_held_out_rmse = 0.034;
   comparison.rows = {
-      {ComparisonWay::two_point, comparison.result.theta, "", 0.047, 0.052},
-      {ComparisonWay::full, a.fitted.theta, "", 0.029, 0.034, a.fitted.std_error},
-      {ComparisonWay::full_f0_free, {}, "no start converged", std::nullopt, std::nullopt}};
+      {CalibrationKind::two_point, comparison.result.theta, "", 0.047, 0.052},
+      {CalibrationKind::full, a.fitted.theta, "", 0.029, 0.034, a.fitted.std_error},
+      {CalibrationKind::full_f0_free, {}, "no start converged", std::nullopt, std::nullopt}};
   comparison.spread.assign(a.fitted.theta.size(), 0.0);
   comparison.full_spread.assign(a.fitted.theta.size(), 0.0);
   comparison.spread[0] = 0.0011;

@@ -253,7 +253,7 @@ TEST(FitJson, SaysWhyAMethodHasNoStandardError) {
   Analysis a = sample::four_diameters();
   std::vector<ComparisonRow>& rows = a.uncertainty.two_point.front().rows;
   rows[1].standard_errors.clear();
-  rows[2] = {ComparisonWay::full_f0_free, a.fitted.theta, "", 0.03, 0.04, {0.0, 0.001, 0.0}};
+  rows[2] = {CalibrationKind::full_f0_free, a.fitted.theta, "", 0.03, 0.04, {0.0, 0.001, 0.0}};
   const PlainJson json = PlainJson::parse(fit_json(a));
   const PlainJson& comparison = json["comparison"];
   EXPECT_EQ(comparison[0]["C_H_standard_error_why"],

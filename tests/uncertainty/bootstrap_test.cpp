@@ -119,7 +119,7 @@ TEST(Failures, TheDisturbedPointIsFound) {
   const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::parametric);
   std::vector<std::uint64_t> claimed;
   for (std::uint64_t r = 0; r < 999; ++r) {
-    if (disturbance(plan, 3, r)[5] > 1.8) claimed.push_back(r);
+    if (perturbation(plan, 3, r)[5] > 1.8) claimed.push_back(r);
   }
   ASSERT_GT(claimed.size(), 10U);
   const FailedReplicates found = locate_failures(plan, 3, 999, claimed);

@@ -202,7 +202,7 @@ TEST(Disturbance, AgreesWithWhatWasDrawn) {
   for (const Scheme scheme : {Scheme::cases, Scheme::cluster}) {
     const ResamplingPlan plan = plan_resampling(c.fitted, scheme);
     const Observations sample = drawn(plan, 9);
-    const std::vector<double> extra = disturbance(plan, 1, 9);
+    const std::vector<double> extra = perturbation(plan, 1, 9);
     for (std::size_t i = 0; i < c.data.points.size(); ++i) {
       const auto times =
           std::count_if(sample.points.begin(), sample.points.end(), [&](const Observation& point) {

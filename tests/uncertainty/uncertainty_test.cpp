@@ -80,7 +80,7 @@ TEST(TwoPoints, AreComparedWithAFitOfTheSameF0) {
   for (const auto& c : cases) {
     const auto rows = rows_of_molybdenum(c.free, c.stated);
     ASSERT_EQ(rows.size(), 3U);
-    EXPECT_EQ(rows[0].row, ComparisonWay::two_point);
+    EXPECT_EQ(rows[0].row, CalibrationKind::two_point);
     EXPECT_NEAR(rows[0].theta[adhesion] / c.same, 1.0, 2e-3);
     EXPECT_EQ(rows[0].theta[adhesion], rows[1].theta[adhesion]);
     EXPECT_GT(std::abs(rows[2].theta[adhesion] - c.same), 0.3);  // the points want 9.3 N/m
