@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/commands.hpp"
@@ -41,10 +42,16 @@ void add_help(Program& program) {
                     }
                     if (given.has("--write-schemas")) write_schemas(given.text("--write-schemas"));
                     if (given.has("--write-docs") || given.has("--write-schemas")) return;
-                    if (given.has("COMMAND")) {
+                    const auto commands = program.commands();
+                    const auto named = [&](const Program::CommandText& command) {
+                      return command.name == given.text("COMMAND");
+                    };
+                    if (!given.has("COMMAND")) {
+                      program.run({"--help"});
+                    } else if (std::ranges::any_of(commands, named)) {
                       program.run({given.text("COMMAND"), "--help"});
                     } else {
-                      program.run({"--help"});
+                      program.run({given.text("COMMAND")});  // says what is wrong with it
                     }
                   });
 }

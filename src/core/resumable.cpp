@@ -64,7 +64,8 @@ std::optional<Shard> shard_named(std::string_view text) {
   if (slash == std::string_view::npos) return std::nullopt;
   const auto number = parse_whole_number(text.substr(0, slash));
   const auto of = parse_whole_number(text.substr(slash + 1));
-  if (!number || !of || *number < 1 || *number > *of || *of > std::int64_t{most_shards}) {
+  if (trimmed(text) != text || !number || !of || *number < 1 || *number > *of ||
+      *of > std::int64_t{most_shards}) {
     return std::nullopt;
   }
   return Shard{static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};

@@ -47,17 +47,25 @@ double mean_variance(int events, const std::function<double()>& restitution) {
 struct TrueErrors {
   std::vector<PointConditions> spheres;  ///< with the true V and d of every point
   std::vector<double> of_restitution;    ///< errors of e beside the scatter of the points [1]
+  /// The scatter of points that share it, in their standard deviations; NaN for the others.
+  std::vector<double> scatter;
 };
 
 /// Draws the errors of all sources: an error of V or d moves the sphere, so that its impact is
 /// simulated where it really was; what else the error changes is an error of e.
 TrueErrors draw_errors(const FitResult& fitted, RandomStream& random) {
-  TrueErrors errors{fitted.data.conditions(), std::vector<double>(fitted.data.points.size(), 0.0)};
+  const std::size_t count = fitted.data.points.size();
+  TrueErrors errors{fitted.data.conditions(), std::vector<double>(count, 0.0),
+                    std::vector<double>(count, NAN)};
   ErrorDraws draws(random);
   for (const ErrorSource* source : fitted.data.sources) {
     for (std::size_t i = 0; i < errors.spheres.size(); ++i) {
       const Observation& point = fitted.data.points[i];
       const double z = draws(*source, point, i);
+      if (source->is_scatter()) {
+        if (!source->parts(point).empty()) errors.scatter[i] = z;
+        continue;
+      }
       const InputShift by = source->shift(point);
       errors.spheres[i].velocity *= std::exp(by.velocity * z);
       errors.spheres[i].diameter *= std::exp(by.diameter * z);
@@ -127,9 +135,11 @@ std::vector<DesignPoint> design_points(const FitResult& fitted,
 /// Simulates a repeated measurement of the point at the truth.
 /// @param other_truth true: the truth differs from the estimate, so that captured points may
 ///   rebound and the reverse
+/// @param shared the scatter that the point shares, in its standard deviations; NaN: it has its own
 void simulate_point(const DesignPoint& design, double spread, bool other_truth, bool sd_stated,
-                    RandomStream& random, ImpactPoint& point) {
-  const double noise = random.normal();
+                    double shared, RandomStream& random, ImpactPoint& point) {
+  const double own = random.normal();
+  const double noise = std::isnan(shared) ? own : shared;
   const bool differing = design.curve || design.mixture;
   if (!differing && other_truth) {
     const bool back = design.restitution > 0.0;
@@ -234,13 +244,8 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
     std::size_t i = 0;
     for (Dataset& dataset : made) {
       for (ImpactPoint& point : dataset.points) {
-        DesignPoint& designed = design[i];
-        const auto stated = point.restitution_sd;
-        const bool all_shared = !has_own_scatter(fit.data, i);
-        if (all_shared) designed.sd = 0.0;
-        simulate_point(designed, fit.weights.noise.event_spread, other_truth,
-                       fit.data.noise.sd_stated, noise, point);
-        if (all_shared) point.restitution_sd = stated;
+        simulate_point(design[i], fit.weights.noise.event_spread, other_truth,
+                       fit.data.noise.sd_stated, errors.scatter[i], noise, point);
         if (!point.all_captured() && !point.counts_only) {
           point.restitution = std::max(0.0, point.restitution + errors.of_restitution[i]);
         }

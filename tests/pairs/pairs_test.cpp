@@ -218,6 +218,8 @@ TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
       const ParameterSlot& slot = fitted.model.slots[j];
       const IntervalSet& intervals = made->analysis->uncertainty.intervals[j];
       if (!slot.free) continue;
+      // Whole series are drawn: a replicate may lack the one that has this parameter.
+      if (slot.parameter->per_series && made->choice.at("scheme") == "cluster") continue;
       if (!(fitted.std_error[j] < 0.25 * std::abs(fitted.theta[j]))) continue;
       std::vector<double> widths;
       for (const IntervalKind kind :
@@ -325,13 +327,15 @@ TEST_F(Pairs, TheBootstrapDrawsTheScatterThatTheFitStates) {
 TEST_F(Pairs, CoverageSimulatesTheScatterThatTheFitStates) {
   int compared = 0;
   for (const Made* made : answered()) {
-    // Other constants move points to capture, where the weights of the fit do not hold.
-    if (made->choice.at("materials") != "exact" || !states_its_scatter(*made)) continue;
-    const FitResult& fitted = made->analysis->fitted;
+    if (!states_its_scatter(*made)) continue;
+    // Other constants move points to where the weights of the fit do not hold.
+    const FitResult& with_constants = made->analysis->fitted;
+    const FitResult fitted = fit(with_exact_materials(with_constants.model), with_constants.data);
+    if (!fitted.usable || fitted.noise_scale != 1.0) continue;
     WhiteScatter scatter(fitted);
     if (scatter.points() < 4) continue;
     const CoverageTruth truth = coverage_truth(fitted, made->analysis->datasets, 5);
-    for (std::uint64_t index = 0; index < simulated_sets; ++index) {
+    for (std::uint64_t index = 0; index < simulated_sets / 4; ++index) {
       const std::vector<double> theta = truth.at ? truth.at(index).theta : truth.theta;
       const std::vector<ImpactPoint> points = truth.simulate(index).front().points;
       std::vector<double> squares;
@@ -450,7 +454,7 @@ TEST_F(Pairs, AnExportedTableAnswersAsTheCurve) {
 
 TEST_F(Pairs, DigitsDoNotDependOnTheThreads) {
   const std::vector<const Made*> fits = answered();
-  for (std::size_t k = 0; k < fits.size(); k += 4) {
+  for (std::size_t k = 0; k < fits.size(); k += 8) {
     EXPECT_EQ(fit_json(analysed(fits[k]->folder, 3)),
               support::text_of(fits[k]->folder / "fit.json"))
         << pairs::words_of(fits[k]->choice);
