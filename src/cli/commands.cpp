@@ -30,6 +30,26 @@ void write_or_print(const std::vector<WholeFile>& files, const std::string& resu
   }
 }
 
+void add_commands(Program& program) {
+  add_check(program);
+  add_simulate(program);
+  add_fit(program);
+  add_diagnose(program);
+  add_coverage(program);
+  add_init(program);
+  add_import(program);
+  add_materials(program);
+  add_predict(program);
+  add_export(program);
+  add_compare(program);
+  add_report(program);
+  add_merge(program);
+  add_cluster(program);
+  add_pair(program);
+  add_plan(program);
+  add_help(program);
+}
+
 void add_shared_commands(Program& program) {
   add_fit(program);
   add_coverage(program);

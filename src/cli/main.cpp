@@ -23,26 +23,6 @@ namespace {
 constexpr int wrong_input = 2;
 constexpr int no_answer = 3;
 
-void add_commands(Program& program) {
-  add_check(program);
-  add_simulate(program);
-  add_fit(program);
-  add_diagnose(program);
-  add_coverage(program);
-  add_init(program);
-  add_import(program);
-  add_materials(program);
-  add_predict(program);
-  add_export(program);
-  add_compare(program);
-  add_report(program);
-  add_merge(program);
-  add_cluster(program);
-  add_pair(program);
-  add_plan(program);
-  add_help(program);
-}
-
 /// Opens /dev/null for closed standard streams. Otherwise a result file would get the descriptor of
 /// a standard stream, and messages would be written into it. Writing to standard output still
 /// fails.

@@ -69,9 +69,8 @@ void add(CLI::App& app, const OptionRow& row, std::vector<std::string>& values) 
   std::string meaning(row.meaning);
   if (!row.default_text().empty()) meaning = meaning_words(row);
   if (type.is_flag()) {
-    CLI::Option* const flag = app.add_flag_callback(
+    app.add_flag_callback(
         name, [&values] { values.clear(); }, meaning);
-    if (row.is_hidden()) flag->group("");
     return;
   }
   CLI::Option* const option = app.add_option(name, values, meaning);
@@ -79,7 +78,6 @@ void add(CLI::App& app, const OptionRow& row, std::vector<std::string>& values) 
   std::erase(value, '`');
   option->type_name(value);
   option->required(row.is_required());
-  if (row.is_hidden()) option->group("");
   if (type.commas) option->delimiter(',');
   const bool repeats = type.most > 1 && !type.commas && !row.is_argument();
   if (type.most == 1 || repeats) option->allow_extra_args(false);
@@ -149,8 +147,6 @@ void Program::run(const std::vector<std::string>& words) {
     app_->exit(request);
   }
 }
-
-std::string Program::help() const { return app_->help(); }
 
 std::vector<Program::CommandText> Program::commands() const {
   std::vector<CommandText> texts;

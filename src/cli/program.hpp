@@ -46,8 +46,6 @@ class Program {
   /// Parses `words` without running their command. @throws UsageError
   GivenOptions parse(const std::vector<std::string>& words);
 
-  std::string help() const;
-
   /// A command as the manual describes it.
   struct CommandText {
     std::string name, meaning;

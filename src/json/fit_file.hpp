@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json_schema.hpp"
+#include "core/json_result.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/least_squares.hpp"

@@ -291,8 +291,6 @@ const std::vector<OptionRow>& option_rows() {
       {"fit diagnose simulate predict compare pair plan coverage", "--json", nothing(),
        "print the result as JSON; notes and warnings go to stderr"},
       {"fit diagnose", "--verbose", nothing(), "print all details"},
-      {"help", "--write-docs", repeated(path("DIR")), ""},
-      {"help", "--write-schemas", path("DIR"), ""},
   };
   return rows;
 }

@@ -1,5 +1,5 @@
 // The schema of a struct says what as_json writes of it.
-#include "core/json_schema.hpp"
+#include "tables/json_schema.hpp"
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ TEST(Manual, TablesAndSignaturesAreThoseThatTheProgramMakes) {
   fs::copy(tree::root() / "docs", sandbox.folder() / "docs");
   fs::copy(tree::root() / "src/python/recoil", sandbox.folder() / "package");
   const page::Sandbox::Outcome outcome =
-      sandbox.run("build/release/recoil help --write-docs docs --write-docs package\n");
+      sandbox.run("mkdir schemas\nbuild/release/recoil_tables schemas docs package\n");
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_EQ(outcome.output, "") << "these are not up to date: ./run docs";
 }
@@ -38,7 +38,7 @@ TEST(Manual, TablesAndSignaturesAreThoseThatTheProgramMakes) {
 TEST(Manual, SchemasAreThoseThatTheProgramMakes) {
   const page::Sandbox sandbox;
   const page::Sandbox::Outcome outcome =
-      sandbox.run("mkdir schemas\nbuild/release/recoil help --write-schemas schemas\n");
+      sandbox.run("mkdir schemas\nbuild/release/recoil_tables schemas\n");
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   std::set<fs::path> made;
   for (const auto& entry : fs::directory_iterator(sandbox.folder() / "schemas")) {

@@ -116,8 +116,10 @@ std::vector<std::vector<std::string>> table_of(const fs::path& markdown,
 Sandbox::Sandbox() {
   fs::create_directories(folder() / "build/release");
   fs::create_symlink(RECOIL_BINARY, folder() / "build/release/recoil");
-  fs::create_symlink(fs::path(RECOIL_BINARY).parent_path() / "python",
-                     folder() / "build/release/python");
+  for (const char* name : {"python", "recoil_tables"}) {
+    fs::create_symlink(fs::path(RECOIL_BINARY).parent_path() / name,
+                       folder() / "build/release" / name);
+  }
   for (const char* name : {"datasets", "fits"}) {
     fs::copy(tree::root() / name, folder() / name, fs::copy_options::recursive);
   }

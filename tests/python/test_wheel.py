@@ -16,7 +16,7 @@ PACKAGE = Path(recoil.__file__).parent
 
 
 def test_the_wheel_works_where_it_is_unpacked(tmp_path):
-    make_wheel = runpy.run_path(str(SOURCE / "src/python/make_wheel.py"))["make_wheel"]
+    make_wheel = runpy.run_path(str(SOURCE / "packaging_wheel.py"))["make_wheel"]
     wheel = make_wheel(PACKAGE, tmp_path / "out")
     again = make_wheel(PACKAGE, tmp_path / "again")
     assert wheel.read_bytes() == again.read_bytes()

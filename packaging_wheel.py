@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""make_wheel.py PACKAGE OUT: packs the built package (build/release/python/recoil) as a wheel in
+"""packaging_wheel.py PACKAGE OUT: packs the built package (build/release/python/recoil) as a wheel in
 OUT and prints its path. A wheel is a zip file of the package and a list of its files (PEP 427).
 This one works with the running Python version and on machines with the same libraries."""
 
@@ -11,7 +11,7 @@ import sysconfig
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parent
 MANY_YEARS_AGO = (1980, 1, 1, 0, 0, 0)  # fixed, so that the same package gives the same bytes
 
 

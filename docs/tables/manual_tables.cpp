@@ -1,3 +1,5 @@
+#include "tables/manual_tables.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,15 +8,14 @@
 #include <functional>
 #include <utility>
 
-#include "cli/manual.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "estimate/fit_spec.hpp"
-#include "json/results.hpp"
 #include "mechanism/mechanism.hpp"
+#include "tables/result_formats.hpp"
 
 namespace recoil {
 namespace {
@@ -46,7 +47,6 @@ std::string commands_table(const Program& program, const std::vector<std::string
     std::string arguments;
     std::string rows;
     for (const OptionRow* option : options_of(command.name)) {
-      if (option->is_hidden()) continue;
       if (option->is_argument()) {
         arguments += option->is_required()
                          ? fmt::format(" {}", option->name)

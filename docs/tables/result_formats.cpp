@@ -1,9 +1,10 @@
-#include "json/results.hpp"
+#include "tables/result_formats.hpp"
 
 #include <fmt/format.h>
 
 #include "json/diagnosis_file.hpp"
 #include "json/printed_results.hpp"
+#include "tables/json_schema.hpp"
 
 namespace recoil {
 namespace {
