@@ -127,6 +127,14 @@ auto interruptible(const Work& work) {
   return running.get();
 }
 
+/// `function` as one that is `interruptible`.
+template <class Result, class... Arguments>
+auto cancellable(Result (*function)(Arguments...)) {
+  return [function](Arguments... arguments) {
+    return interruptible([&] { return function(arguments...); });
+  };
+}
+
 FitInputs inputs_from_text(const std::string& text, const std::string& file,
                            std::vector<Dataset> datasets) {
   return {parse_fit(text, file), std::move(datasets)};
@@ -229,7 +237,8 @@ struct Valued {
   }
 };
 
-Valued model_of(const FitInputs& inputs, const std::string& parameters) {
+Valued model_of_fit(const FitInputs& inputs, const GivenOptions& given) {
+  const std::string parameters = given.text("--parameters");
   Valued out = {make_model(inputs.spec, inputs.datasets), inputs.datasets, inputs.spec.id,
                 "the initial values of the fit file"};
   if (const auto fitted = read_parameters(parameters)) {
@@ -239,7 +248,7 @@ Valued model_of(const FitInputs& inputs, const std::string& parameters) {
   return out;
 }
 
-Valued model_of(const Analysis& analysis) {
+Valued fitted_model(const Analysis& analysis) {
   Valued out = {analysis.fitted.model, analysis.datasets, analysis.spec.id, "the fit"};
   for (std::size_t s = 0; s < out.model.slots.size(); ++s) {
     out.model.slots[s].initial = analysis.fitted.theta[s];
@@ -283,6 +292,14 @@ std::string one_impact(const Valued& valued, double velocity, double diameter_um
 }
 
 // ---- results -----------------------------------------------------------------------------------
+
+Importance least_shown(bool verbose) { return verbose ? Importance::detail : Importance::answer; }
+
+std::shared_ptr<Analysis> fit_of(const FitInputs& inputs, const GivenOptions& given) {
+  auto analysis = std::make_shared<Analysis>(analyse(inputs, analysis_options(given)));
+  add_predictions(*analysis);
+  return analysis;
+}
 
 std::string summary_html(const Analysis& analysis) {
   std::vector<Section> shown;
@@ -450,16 +467,9 @@ void bind_inputs(py::module_& module) {
       .def_property_readonly("provenance",
                              [](const Dataset& d) { return std::string(to_string(d.provenance)); })
       .def_property_readonly("points", [](const Dataset& d) { return d.points.size(); });
-  module.def(
-      "load_dataset", [](const std::string& folder) { return load_dataset(folder); },
-      py::arg("folder"));
-  module.def(
-      "parse_dataset",
-      [](const std::string& package, const std::string& csv, const std::string& folder) {
-        return parse_dataset(package, csv, folder);
-      },
-      py::arg("package"), py::arg("csv"), py::arg("folder"));
-
+  module.def("load_dataset", &load_dataset, py::arg("folder"));
+  module.def("parse_dataset", &parse_dataset, py::arg("package"), py::arg("csv"),
+             py::arg("folder"));
   module.def(
       "material",
       [](const std::string& name, const std::string& body) {
@@ -470,8 +480,7 @@ void bind_inputs(py::module_& module) {
   py::class_<FitInputs>(module, "Inputs")
       .def_property_readonly("id", [](const FitInputs& inputs) { return inputs.spec.id; })
       .def_property_readonly("datasets", [](const FitInputs& inputs) { return inputs.datasets; });
-  module.def(
-      "load_fit", [](const std::string& file) { return load_inputs(file); }, py::arg("file"));
+  module.def("load_fit", &load_inputs, py::arg("file"));
   module.def("parse_fit", &inputs_from_text, py::arg("text"), py::arg("file"), py::arg("datasets"));
 
   py::class_<GivenOptions>(module, "Options")
@@ -487,12 +496,7 @@ void bind_models(py::module_& module) {
            py::arg("dataset"), py::arg("slopes"))
       .def("impact", &one_impact, py::arg("velocity"), py::arg("diameter_um"), py::arg("dataset"),
            py::call_guard<Released>());
-  module.def(
-      "model_of_fit",
-      [](const FitInputs& inputs, const GivenOptions& given) {
-        return model_of(inputs, given.text("--parameters"));
-      },
-      py::arg("inputs"), py::arg("options"));
+  module.def("model_of_fit", &model_of_fit, py::arg("inputs"), py::arg("options"));
 }
 
 void bind_results(py::module_& module) {
@@ -503,10 +507,7 @@ void bind_results(py::module_& module) {
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
       .def("json", &fit_json, py::call_guard<Released>())
       .def(
-          "text",
-          [](const Analysis& a, bool verbose) {
-            return fit_text(a, verbose ? Importance::detail : Importance::answer);
-          },
+          "text", [](const Analysis& a, bool verbose) { return fit_text(a, least_shown(verbose)); },
           py::arg("verbose"), py::call_guard<Released>())
       .def(
           "page", [](const Analysis& a) { return fit_html(a); }, py::call_guard<Released>())
@@ -516,29 +517,10 @@ void bind_results(py::module_& module) {
           py::call_guard<Released>())
       .def("profiles", &profiles_of)
       .def("posterior", &posterior_of)
-      .def("model", [](const Analysis& a) { return model_of(a); })
-      .def(
-          "predict",
-          [](const Analysis& a, const std::string& sizes, const GivenOptions& given) {
-            return interruptible([&] { return predict_for(a, sizes, given); });
-          },
-          py::arg("sizes"), py::arg("options"))
-      .def(
-          "diagnose",
-          [](const Analysis& a, const GivenOptions& given) {
-            return interruptible([&] { return diagnosis_of(a, given); });
-          },
-          py::arg("options"));
-  module.def(
-      "fit",
-      [](const FitInputs& inputs, const GivenOptions& given) {
-        return interruptible([&] {
-          auto analysis = std::make_shared<Analysis>(analyse(inputs, analysis_options(given)));
-          add_predictions(*analysis);
-          return analysis;
-        });
-      },
-      py::arg("inputs"), py::arg("options"));
+      .def("model", &fitted_model)
+      .def("predict", cancellable(&predict_for), py::arg("sizes"), py::arg("options"))
+      .def("diagnose", cancellable(&diagnosis_of), py::arg("options"));
+  module.def("fit", cancellable(&fit_of), py::arg("inputs"), py::arg("options"));
 
   py::class_<Predicted>(module, "Predicted")
       .def_readonly("json", &Predicted::json)
@@ -549,9 +531,7 @@ void bind_results(py::module_& module) {
       .def("json", &diagnosis_json, py::call_guard<Released>())
       .def(
           "text",
-          [](const Diagnosis& d, bool verbose) {
-            return diagnosis_text(d, verbose ? Importance::detail : Importance::answer);
-          },
+          [](const Diagnosis& d, bool verbose) { return diagnosis_text(d, least_shown(verbose)); },
           py::arg("verbose"), py::call_guard<Released>())
       .def("page", &diagnosis_html, py::call_guard<Released>())
       .def(
@@ -563,12 +543,7 @@ void bind_results(py::module_& module) {
       .def("extended_toml",
            [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });
 
-  module.def(
-      "coverage",
-      [](const FitInputs& inputs, const GivenOptions& given) {
-        return interruptible([&] { return coverage_of(inputs, given); });
-      },
-      py::arg("inputs"), py::arg("options"));
+  module.def("coverage", cancellable(&coverage_of), py::arg("inputs"), py::arg("options"));
   module.def("compare", &compared, py::arg("named_texts"), py::call_guard<Released>());
 }
 
@@ -578,12 +553,7 @@ void bind_pairs(py::module_& module) {
       .def_readonly("text", &PairTexts::text)
       .def_readonly("points", &PairTexts::points)
       .def_readonly("impacts", &PairTexts::impacts);
-  module.def(
-      "pair",
-      [](const std::string& file, const GivenOptions& given) {
-        return interruptible([&] { return pair_texts(file, given); });
-      },
-      py::arg("file"), py::arg("options"));
+  module.def("pair", cancellable(&pair_texts), py::arg("file"), py::arg("options"));
 }
 
 }  // namespace

@@ -33,28 +33,9 @@ if TYPE_CHECKING:
 
 __version__: str = _recoil.__version__
 
-__all__ = [
-    "Comparison",
-    "ComputationError",
-    "Dataset",
-    "Diagnosis",
-    "Facts",
-    "FitResult",
-    "Impacts",
-    "InputError",
-    "Model",
-    "Pairing",
-    "Parameter",
-    "Prediction",
-    "compare",
-    "coverage",
-    "describe",
-    "fit",
-    "load_dataset",
-    "model",
-    "pair",
-    "schema",
-]
+__all__ = ["Comparison", "ComputationError", "Dataset", "Diagnosis", "Facts", "FitResult",
+           "Impacts", "InputError", "Model", "Pairing", "Parameter", "Prediction",
+           "compare", "coverage", "describe", "fit", "load_dataset", "model", "pair", "schema"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 Quantity = Union[float, str]
@@ -83,10 +64,8 @@ def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) ->
     given = {key: plain(key, table) for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
-            refuse(
-                f"{', '.join(given)} cannot be given together with a fit file",
-                "state it in the file, or give the dataset instead of the file",
-            )
+            refuse(f"{', '.join(given)} cannot be given together with a fit file",
+                   "state it in the file, or give the dataset instead of the file")
         return _recoil.load_fit(os.fspath(source))
     listed = [source] if isinstance(source, (str, os.PathLike, Dataset)) else list(source)
     datasets = [one if isinstance(one, Dataset) else Dataset(one) for one in listed]
@@ -194,13 +173,8 @@ def fit(
     usable result.
     """
     options = given("fit", locals())
-    tables = {
-        "parameters": parameters,
-        "model": model,
-        "noise": noise,
-        "uncertainty": uncertainty,
-        "diagnosis": diagnosis,
-    }
+    tables = {"parameters": parameters, "model": model, "noise": noise,
+              "uncertainty": uncertainty, "diagnosis": diagnosis}
     stated = {"d": d, "particle": particle, "surface": surface, "e_sd": e_sd, "V_sd": V_sd,
               "events": events, "captured": captured, "series": series,
               "provenance": provenance, "units": units}

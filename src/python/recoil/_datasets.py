@@ -24,15 +24,10 @@ PathLike = Union[str, "os.PathLike[str]"]
 Material = Union[str, Mapping[str, Any]]
 
 _UNITS = {
-    "diameter": "um",
-    "diameter_sd": "um",
-    "series_diameter_sd": "um",
-    "incident_velocity": "m/s",
-    "rebound_velocity": "m/s",
-    "velocity_sd": "m/s",
-    "setting_velocity_sd": "m/s",
-    "restitution": "1",
-    "restitution_sd": "1",
+    "diameter": "um", "diameter_sd": "um", "series_diameter_sd": "um",
+    "incident_velocity": "m/s", "rebound_velocity": "m/s",
+    "velocity_sd": "m/s", "setting_velocity_sd": "m/s",
+    "restitution": "1", "restitution_sd": "1",
 }
 _TEXTS = ("series", "setting", "launch")
 _COUNTS = ("events", "captured")
@@ -133,9 +128,8 @@ class Dataset:
     def __init__(self, folder: PathLike) -> None:
         self._data = _recoil.load_dataset(os.fspath(folder))
         place = Path(folder)
-        self._package: dict[str, Any] = json.loads(
-            (place / "datapackage.json").read_text(encoding="utf-8-sig")
-        )
+        package = (place / "datapackage.json").read_text(encoding="utf-8-sig")
+        self._package: dict[str, Any] = json.loads(package)
         self._csv = (place / self._package["resources"][0]["path"]).read_text(encoding="utf-8-sig")
 
     @classmethod
@@ -350,9 +344,8 @@ class Dataset:
         return f"<recoil.Dataset {self.id}: {len(self)} points, {self.provenance}>"
 
     def _repr_html_(self) -> str:
-        return f"<p>{html.escape(self.id)}: {len(self)} points, {self.provenance}</p>" + str(
-            self.to_pandas()._repr_html_()
-        )
+        head = f"<p>{html.escape(self.id)}: {len(self)} points, {self.provenance}</p>"
+        return head + str(self.to_pandas()._repr_html_())
 
 
 def _dataset_of(package: dict[str, Any], csv: str, folder: str) -> Dataset:

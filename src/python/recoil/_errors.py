@@ -26,23 +26,11 @@ class InputError(ValueError):
     suggestion: str
     """What to do; may be empty."""
 
-    def __init__(
-        self,
-        message: str,
-        file: str = "",
-        line: int = 0,
-        column: int = 0,
-        problem: str = "",
-        why: str = "",
-        suggestion: str = "",
-    ) -> None:
+    def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0,
+                 problem: str = "", why: str = "", suggestion: str = "") -> None:
         super().__init__(message)
-        self.file = file
-        self.line = line
-        self.column = column
-        self.problem = problem or message
-        self.why = why
-        self.suggestion = suggestion
+        self.file, self.line, self.column = file, line, column
+        self.problem, self.why, self.suggestion = problem or message, why, suggestion
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
         parts = (self.file, self.line, self.column, self.problem, self.why, self.suggestion)

@@ -61,14 +61,8 @@ class Model:
         error."""
         return dict(zip(self._model.labels, self._model.values))
 
-    def simulate(
-        self,
-        V: npt.ArrayLike,  # noqa: N803
-        d: npt.ArrayLike,
-        *,
-        dataset: str = "",
-        gradient: bool = False,
-    ) -> Impacts:
+    def simulate(self, V: npt.ArrayLike, d: npt.ArrayLike, *,  # noqa: N803
+                 dataset: str = "", gradient: bool = False) -> Impacts:
         """Simulates impacts at incident velocities ``V`` [m/s] of spheres of diameter ``d`` [um].
 
         ``V`` and ``d`` are numbers or arrays that broadcast against each other. ``dataset``: id of
@@ -84,10 +78,7 @@ class Model:
         shape = velocity.shape
         squared, captured, columns = self._model.simulate(
             np.ascontiguousarray(velocity).reshape(-1),
-            np.ascontiguousarray(diameter).reshape(-1),
-            dataset,
-            gradient,
-        )
+            np.ascontiguousarray(diameter).reshape(-1), dataset, gradient)
         slopes = None
         if gradient:
             names = [*self._model.labels, "incident_velocity", "diameter_um"]

@@ -186,14 +186,8 @@ class FitResult(_Reported):
 
     # -- methods --
 
-    def simulate(
-        self,
-        V: npt.ArrayLike,  # noqa: N803
-        d: npt.ArrayLike,
-        *,
-        dataset: str = "",
-        gradient: bool = False,
-    ) -> Impacts:
+    def simulate(self, V: npt.ArrayLike, d: npt.ArrayLike, *,  # noqa: N803
+                 dataset: str = "", gradient: bool = False) -> Impacts:
         """Impacts with the fitted values: ``Model.simulate``."""
         return self._fitted.simulate(V, d, dataset=dataset, gradient=gradient)
 
@@ -283,9 +277,7 @@ class FitResult(_Reported):
         """Writes the page of ``recoil report``: one HTML file that contains its pictures."""
         _recoil.write_whole_files([(Path(file), self._compiled.page())])
 
-    def plot(
-        self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = ""
-    ) -> "Axes":
+    def plot(self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = "") -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
 
         ``what``: ``"fit"``: e against V with the errors of the points and the band of the curve,
@@ -433,9 +425,7 @@ class FitResult(_Reported):
     # -- display --
 
     def __repr__(self) -> str:
-        values = ", ".join(
-            f"{name} = {self.parameters[name].value:.4g}" for name in self.var_names
-        )
+        values = ", ".join(f"{name} = {self.parameters[name].value:.4g}" for name in self.var_names)
         return f"<recoil.FitResult {self.fit.id}: {values}>"
 
 
