@@ -15,7 +15,6 @@
 #include "export/export_job.hpp"
 
 namespace recoil {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,7 +123,6 @@ std::string clock_time(std::int64_t seconds) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-/// The scripts of a job.
 std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
   const std::string plain_folder = job.folder.string();
   const auto script = [&](const char* name, const char* text) {
@@ -172,7 +170,7 @@ std::vector<std::string> words_of_job(std::vector<std::string> words) {
 /// Checks the command and its files before the shards start.
 void require_valid(const std::vector<std::string>& words) {
   for (const char* own : {"--shard", "--out", "--threads"}) {
-    if (std::any_of(words.begin(), words.end(), [own](const std::string& word) {
+    if (std::ranges::any_of(words, [own](const std::string& word) {
           return word == own || word.starts_with(std::string(own) + "=");
         })) {
       throw InputError({}, fmt::format("{} is set by the scripts", own), "",

@@ -13,7 +13,6 @@
 #include "report/words_dataset.hpp"
 
 namespace recoil {
-
 namespace {
 
 /// The inputs of the simulation.
@@ -55,8 +54,8 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
                               const CoverageOptions& options) {
   std::string text = fmt::format(
       "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
-      "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
-      "the 95 % limits of each share (Wilson).\n\n",
+      "replicates each, seed {}. {} fits and {} refits failed. In square brackets: the 95 % limits "
+      "of each share (Wilson).\n\n",
       spec.id, result.datasets,
       result.truth_origin == TruthOrigin::recipe
           ? "truth and noise from the recipe, with a different seed for each"
@@ -64,9 +63,8 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
       100.0 * options.uncertainty.level, options.uncertainty.replicates, options.uncertainty.seed,
       result.failed, result.refits_failed);
   text +=
-      "| parameter | truth | called well determined | interval | contains the truth | where "
-      "well determined "
-      "| median width |\n|---|---|---|---|---|---|---|\n";
+      "| parameter | truth | called well determined | interval | contains the truth | where well "
+      "determined | median width |\n|---|---|---|---|---|---|---|\n";
   for (const CoverageRow& row : result.rows) {
     for (const CoverageCell& cell : row.cells) {
       text += fmt::format("| {} [{}] | {:.4g} | {} of {} | {} | {} | {} ({} of {}) | {:.3g} |\n",

@@ -80,8 +80,8 @@ Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const std::strin
 
 /// @throws InputError if every impact was captured, because the fit then has its initial values
 void require_rebounds(const Dataset& dataset) {
-  if (std::any_of(dataset.points.begin(), dataset.points.end(),
-                  [](const ImpactPoint& point) { return !point.all_captured(); })) {
+  if (std::ranges::any_of(dataset.points,
+                          [](const ImpactPoint& point) { return !point.all_captured(); })) {
     return;
   }
   throw InputError({dataset.folder.string()}, "nothing of this dataset can be exported",
@@ -96,10 +96,9 @@ ExportRequest request_of(const GivenOptions& given, const Dataset& dataset, std:
   const std::vector<double> velocity = given.numbers("--velocity");
   if (velocity.empty()) {
     const auto [least, most] =
-        std::minmax_element(dataset.points.begin(), dataset.points.end(),
-                            [](const ImpactPoint& a, const ImpactPoint& b) {
-                              return a.incident_velocity < b.incident_velocity;
-                            });
+        std::ranges::minmax_element(dataset.points, [](const ImpactPoint& a, const ImpactPoint& b) {
+          return a.incident_velocity < b.incident_velocity;
+        });
     request.slowest = least->incident_velocity;
     request.fastest = most->incident_velocity;
     if (request.slowest == request.fastest) {
@@ -122,21 +121,10 @@ bool holds_all_sizes(ExportTarget target) {
 }
 
 std::vector<WholeFile> files_for(ExportTarget target, const ExportJob& job) {
-  switch (target) {
-    case ExportTarget::lammps:
-      return lammps_files(job);
-    case ExportTarget::liggghts:
-      return liggghts_files(job);
-    case ExportTarget::yade:
-      return yade_files(job);
-    case ExportTarget::openfoam:
-      return openfoam_files(job);
-    case ExportTarget::fluent:
-      return fluent_files(job);
-    case ExportTarget::table:
-      break;
-  }
-  return {};
+  using Writer = std::vector<WholeFile> (*)(const ExportJob&);
+  static constexpr Writer writers[] = {lammps_files, liggghts_files, yade_files, openfoam_files,
+                                       fluent_files};  // in the order of ExportTarget
+  return writers[static_cast<std::size_t>(target)](job);
 }
 
 std::vector<WholeFile> table_files(const Fitted& fitted, const ExportRequest& request,

@@ -7,11 +7,9 @@ void add_help(Program& program) {
   recoil help
   recoil help fit)",
                   [&program](const GivenOptions& given) {
-                    if (given.has("COMMAND")) {
-                      program.run({given.text("COMMAND"), "--help"});
-                    } else {
-                      program.run({"--help"});
-                    }
+                    std::vector<std::string> words = given.texts("COMMAND");
+                    words.emplace_back("--help");
+                    program.run(words);
                   });
 }
 

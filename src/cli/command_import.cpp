@@ -41,8 +41,7 @@ void require_used(const GivenOptions& given, ImportFormat format) {
   };
   for (const OptionOfFormats& one : some) {
     const std::string option(one.option);
-    if (!given.has(option) || std::count(one.formats.begin(), one.formats.end(), format) > 0)
-      continue;
+    if (!given.has(option) || std::ranges::count(one.formats, format) > 0) continue;
     std::vector<std::string_view> names;
     for (const ImportFormat its : one.formats) names.push_back(name_of(its));
     throw InputError(
@@ -102,9 +101,7 @@ void run_import(const GivenOptions& given) {
   print_text("{}: written\n", request.into.string());
   const std::filesystem::path fit_file = request.into / "fit.toml";
   std::error_code failed;
-  if (!std::filesystem::exists(fit_file, failed)) {
-    write_whole_file(fit_file, new_fit_file);
-  }
+  if (!std::filesystem::exists(fit_file, failed)) write_whole_file(fit_file, new_fit_file);
   print_text("next:\n  recoil fit {0}\n  recoil diagnose {0}\n", fit_file.string());
 }
 

@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Example points, computed from the model.
 std::string example_points(const Dataset& dataset, double diameter) {
   FitSpec spec = parse_fit(new_fit_file, "fit.toml");
   const ImpactModel model = make_model(spec, {dataset});
@@ -115,10 +114,9 @@ void run_init(const GivenOptions& given) {
   load_inputs(fit_file);  // throws if the files are not valid
   made.keep();
   print_text("{}: {}{}\n", folder.string(), counted(result.dataset.points.size(), "point"),
-             points.empty()
-                 ? ", SYNTHETIC: computed from the model, with noise. Write your points to "
-                   "points.csv and their provenance to datapackage.json"
-                 : "");
+             points.empty() ? ", SYNTHETIC: computed from the model, with noise. Write your points "
+                              "to points.csv and their provenance to datapackage.json"
+                            : "");
   for (const DatasetWarning& warning : result.dataset.warnings) {
     print_text("note: {}\n", warning_sentence(warning));
   }

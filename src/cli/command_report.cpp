@@ -116,8 +116,7 @@ struct PageFiles {
 
   bool are_current(const std::string& expected) const {
     const auto files = {page, json, text, picture, picture_data, diagnosed, laws};
-    return std::all_of(files.begin(), files.end(),
-                       [](const fs::path& f) { return fs::exists(f); }) &&
+    return std::ranges::all_of(files, [](const fs::path& f) { return fs::exists(f); }) &&
            sha256_of_file(stamp) == sha256_hex(expected);
   }
 };

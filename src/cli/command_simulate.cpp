@@ -209,9 +209,7 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
 void simulate(const GivenOptions& given) {
   const std::string history = given.text("--history");
   const std::string parameters = given.text("--parameters");
-  if (!history.empty()) {
-    require_writable_folder(std::filesystem::absolute(history).parent_path());
-  }
+  if (!history.empty()) require_writable_folder(std::filesystem::absolute(history).parent_path());
   const std::optional<FitFile> fitted = read_parameters(parameters);
   const FitSpec spec = with_fitted_loss(load_fit(given.text("FIT")), fitted);
   const std::vector<Dataset> datasets = load_datasets(spec);

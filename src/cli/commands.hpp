@@ -36,7 +36,6 @@ void add_cluster(Program& program);
 /// Adds the command help, which also describes the commands added before it.
 void add_help(Program& program);
 
-/// All commands.
 void add_commands(Program& program);
 
 /// The commands whose pieces several processes can share.

@@ -61,8 +61,7 @@ constant. The constants enter the dataset with their errors.
         print_text(
             "Source: {}.\n"
             "Errors are one standard deviation: a range of Young's modulus is taken as uniform. "
-            "For a "
-            "single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
+            "For a single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
             tabled_materials_source);
       });
 }

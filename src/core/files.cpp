@@ -143,9 +143,7 @@ std::string advice_on(int failed) {
 /// Opens a file for reading. A path that names an open descriptor gives a copy of it, because a
 /// socket cannot be opened by its name.
 int open_to_read(const std::filesystem::path& path) {
-  if (const auto descriptor = descriptor_named(path)) {
-    return fcntl(*descriptor, F_DUPFD_CLOEXEC, 0);
-  }
+  if (const auto descriptor = descriptor_named(path)) return fcntl(*descriptor, F_DUPFD_CLOEXEC, 0);
   // O_NONBLOCK: a pipe without a writer is opened all the same.
   return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
@@ -342,7 +340,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     if (entry.path().extension() == extension) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

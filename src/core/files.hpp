@@ -31,7 +31,6 @@ std::string read_text_file(const std::filesystem::path& path,
                            std::uintmax_t max_bytes = 256ULL * 1024 * 1024,
                            std::chrono::milliseconds patience = std::chrono::seconds(30));
 
-/// A file to be written.
 struct WholeFile {
   std::filesystem::path path;
   std::string text;
@@ -79,7 +78,6 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
 /// sha256 or sha512 (FIPS 180-4); the hash by another one is empty
 std::string hash_hex(std::string_view algorithm, std::string_view bytes);
 
-/// SHA-256 of `bytes`.
 std::string sha256_hex(std::string_view bytes);
 
 /// SHA-256 of the content of a file; empty if it cannot be read.

@@ -50,7 +50,6 @@ namespace recoil {
 #define RECOIL_SCAN_4(...) RECOIL_SCAN(RECOIL_SCAN(RECOIL_SCAN(RECOIL_SCAN(__VA_ARGS__))))
 #define RECOIL_SCAN(...) __VA_ARGS__
 
-/// A value that may be null.
 template <class Value>
 using OrNull = std::optional<Value>;
 

@@ -11,7 +11,6 @@
 #include "core/quoting.hpp"
 
 namespace recoil {
-
 namespace {
 
 /// Opens a file of rows, but no pipe or device.

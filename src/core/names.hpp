@@ -23,7 +23,6 @@ concept NamedEnum = requires(Enum value) {
   names_of_values(value).size();
 };
 
-/// The number of values of `Enum`.
 template <NamedEnum Enum>
 inline constexpr std::size_t count_of = names_of_values(Enum{}).size();
 

@@ -175,16 +175,15 @@ double number_in(const CsvField& cell, const std::string& file, const std::strin
     const bool threes = word.size() == comma + 4;  // 1,250
     const std::string joined = word.substr(0, comma) + word.substr(comma + 1);
     word[comma] = '.';
-    suggestion = !parse_number(word) ? "write decimals with a point"
-                 : threes && parse_number(joined)
-                     ? fmt::format(
-                           "write {} if the comma groups thousands, {} if it is a decimal "
-                           "comma",
-                           joined, word)
-                     : fmt::format(
-                           "a decimal comma? write {}, or state it: --decimal-comma at an "
-                           "import, decimalChar in a schema",
-                           word);
+    suggestion =
+        !parse_number(word) ? "write decimals with a point"
+        : threes && parse_number(joined)
+            ? fmt::format("write {} if the comma groups thousands, {} if it is a decimal comma",
+                          joined, word)
+            : fmt::format(
+                  "a decimal comma? write {}, or state it: --decimal-comma at an import, "
+                  "decimalChar in a schema",
+                  word);
   } else if (word.find("nan") != std::string::npos || word.find("inf") != std::string::npos ||
              word == "na" || word == "null" || word == "-") {
     suggestion = "remove the row, or leave the cell empty if the column is optional";
@@ -206,9 +205,7 @@ void require_width(const CsvRow& row, std::size_t width, const std::string& file
 char delimiter_of(std::string_view header) {
   char best = ',';
   for (const char candidate : {';', '\t'}) {
-    if (std::ranges::count(header, candidate) > std::ranges::count(header, best)) {
-      best = candidate;
-    }
+    if (std::ranges::count(header, candidate) > std::ranges::count(header, best)) best = candidate;
   }
   return best;
 }

@@ -104,8 +104,7 @@ void read_unit(const JsonNode& field, Column& column) {
 Column read_field(const JsonNode& field) {
   const JsonNode name =
       field.require("name", "it links the field to a column",
-                    "known: series, diameter, incident_velocity, restitution, ... "
-                    "(docs/data.md)");
+                    "known: series, diameter, incident_velocity, restitution, ... (docs/data.md)");
   Column column;
   column.name = name.string();
   const auto quantity = value_named<Quantity>(column.name);

@@ -62,7 +62,6 @@ constexpr auto names_of_values(Quantity) {
 /// The dimension of a quantity. Series, setting and launch are texts.
 Dimension dimension_of(Quantity quantity);
 
-/// The quantity of a condition.
 Quantity quantity_of(Condition condition);
 
 /// A field of the schema.

@@ -50,8 +50,7 @@ double TabledMaterial::youngs_modulus_sd() const {
 std::span<const TabledMaterial> tabled_materials() { return materials; }
 
 Json tabled_material(const std::string& name, const std::string& option) {
-  const auto found =
-      std::ranges::find_if(materials, [&](const TabledMaterial& one) { return one.name == name; });
+  const auto found = std::ranges::find(materials, name, &TabledMaterial::name);
   if (found == materials.end()) {
     std::vector<std::string> names;
     for (const TabledMaterial& one : materials) names.emplace_back(one.name);

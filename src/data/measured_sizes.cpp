@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_sizes = 2000;
 constexpr Range plane_height{0.0, 1.0, "m", "give it in m: 1 mm is 0.001"};
 
-/// Reads a table of sizes.
 class SizesReader {
  public:
   SizesReader(std::string file, double factor) : file_(std::move(file)), factor_(factor) {}

@@ -7,7 +7,6 @@
 
 namespace recoil {
 
-/// One bin of a size distribution.
 struct SizeBin {
   double diameter = 0.0;  ///< mid-point of the bin [m]
   double weight = 0.0;    ///< number of particles, or proportional to it [1], > 0

@@ -206,25 +206,15 @@ Conditions Conditions::or_else(const Conditions& others) const {
 
 std::optional<double> ImpactSystem::value_of(Body body, Constant constant) const {
   const Material& material = body == Body::surface ? surface : particle;
-  switch (constant) {
-    case Constant::density:
-      return material.density;
-    case Constant::youngs_modulus:
-      return material.youngs_modulus;
-    case Constant::poisson_ratio:
-      return material.poisson_ratio;
-    case Constant::surface_energy:
-      return material.surface_energy;
-    case Constant::gilman_factor:
-      return 1.0;
-    case Constant::stiffness_K:
-      return stiffness_K;
-    case Constant::adhesion_energy:
-      return adhesion_energy;
-    case Constant::adhesion_force_f0:
-      return adhesion_force_f0;
-  }
-  return std::nullopt;
+  const std::array<std::optional<double>, count_of<Constant>> values = {material.density,
+                                                                        material.youngs_modulus,
+                                                                        material.poisson_ratio,
+                                                                        material.surface_energy,
+                                                                        1.0,
+                                                                        stiffness_K,
+                                                                        adhesion_energy,
+                                                                        adhesion_force_f0};
+  return values[static_cast<std::size_t>(constant)];
 }
 
 double ImpactSystem::error_of(Body body, Constant constant) const {

@@ -48,21 +48,11 @@ void refuse_long_keys(std::string_view text, const std::string& file) {
 
 /// The name of a type of TOML in messages.
 const char* type_name(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "a list";
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "true or false";
-    default:
-      return "a date or time";
-  }
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "a list";
+  if (node.is_string()) return "a text";
+  if (node.is_number()) return "a number";
+  return node.is_boolean() ? "true or false" : "a date or time";
 }
 
 }  // namespace
@@ -156,16 +146,12 @@ std::string TomlReader::one_of(const toml::node& node, const std::string& name,
 }
 
 std::int64_t TomlReader::integer(const toml::node& node, const std::string& name) const {
-  if (!node.is_integer()) {
-    wrong_type(node, name, "a whole number", fmt::format("{} = 1999", name));
-  }
+  if (!node.is_integer()) wrong_type(node, name, "a whole number", fmt::format("{} = 1999", name));
   return node.as_integer()->get();
 }
 
 bool TomlReader::boolean(const toml::node& node, const std::string& name) const {
-  if (!node.is_boolean()) {
-    wrong_type(node, name, "true or false", fmt::format("{} = false", name));
-  }
+  if (!node.is_boolean()) wrong_type(node, name, "true or false", fmt::format("{} = false", name));
   return node.as_boolean()->get();
 }
 

@@ -29,15 +29,15 @@ Sentence words_of_cell(const Cell& cell) {
 }
 
 bool Table::has_headings() const {
-  return std::any_of(columns.begin(), columns.end(),
-                     [](const TableColumn& column) { return !column.heading.empty(); });
+  return std::ranges::any_of(columns,
+                             [](const TableColumn& column) { return !column.heading.empty(); });
 }
 
 Table without_empty_columns(Table table) {
   for (auto& row : table.rows) row.resize(table.columns.size());
   for (std::size_t column = table.columns.size(); column-- > 1;) {
-    const bool needed = std::any_of(table.rows.begin(), table.rows.end(),
-                                    [&](const auto& row) { return !is_empty(row[column]); });
+    const bool needed =
+        std::ranges::any_of(table.rows, [&](const auto& row) { return !is_empty(row[column]); });
     if (needed) continue;
     const auto place = static_cast<std::ptrdiff_t>(column);
     table.columns.erase(table.columns.begin() + place);
@@ -70,8 +70,7 @@ bool empty(const Block& block) {
 }
 
 bool empty(const Section& section) {
-  return std::all_of(section.blocks.begin(), section.blocks.end(),
-                     [](const Block& block) { return empty(block); });
+  return std::ranges::all_of(section.blocks, [](const Block& block) { return empty(block); });
 }
 
 void append(Blocks& blocks, Blocks more) {

@@ -128,7 +128,6 @@ struct Document {
   std::string script{};  ///< JavaScript of the page, in addition to `save_script`
 };
 
-/// All figures of a section.
 std::vector<const Figure*> figures_of(const Section& section);
 
 }  // namespace recoil

@@ -97,12 +97,11 @@ std::string text_html(std::string_view text) {
     }
     const bool behind_number =
         i > 1 && text[i - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[i - 2])) != 0;
-    const auto* const sign =
-        std::find_if(behind_numbers.begin(), behind_numbers.end(), [&](const Replacement& one) {
-          const std::size_t end = one.first.size();
-          return rest.starts_with(one.first) &&
-                 (end == rest.size() || rest[end] == '.' || !belongs_to_word(rest[end]));
-        });
+    const auto* const sign = std::ranges::find_if(behind_numbers, [&](const Replacement& one) {
+      const std::size_t end = one.first.size();
+      return rest.starts_with(one.first) &&
+             (end == rest.size() || rest[end] == '.' || !belongs_to_word(rest[end]));
+    });
     if (behind_number && sign != behind_numbers.end()) {
       out += sign->second;
       i += sign->first.size();
@@ -147,7 +146,7 @@ std::string heading_html(const TableColumn& column) {
 /// True if a cell of the column is long enough to be wrapped.
 bool has_long_cells(const Table& table, std::size_t column) {
   constexpr std::size_t few = 32;
-  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+  return std::ranges::any_of(table.rows, [&](const auto& row) {
     return plain_text(words_of_cell(row[column])).size() > few;
   });
 }
@@ -163,9 +162,7 @@ std::string table_html(const Table& full) {
   std::string out =
       fmt::format("<div class=\"wide\"><table{}>\n",
                   look_of_table.empty() ? "" : fmt::format(" class=\"{}\"", look_of_table));
-  if (!table.caption.empty()) {
-    out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
-  }
+  if (!table.caption.empty()) out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
   const auto look = [&](std::size_t c) {
     if (!table.columns[c].words) return "";
     return has_long_cells(table, c) ? " class=\"words prose\"" : " class=\"words\"";
@@ -236,9 +233,7 @@ struct HtmlBlock {
   }
   std::string operator()(const List& list) const {
     std::string out = "<ul>\n";
-    for (const Sentence& entry : list.entries) {
-      out += fmt::format("<li>{}</li>\n", html_of(entry));
-    }
+    for (const Sentence& entry : list.entries) out += fmt::format("<li>{}</li>\n", html_of(entry));
     return out + "</ul>\n";
   }
   std::string operator()(const Table& table) const { return table_html(table); }
@@ -290,9 +285,9 @@ std::string card_html(const Section& section) {
 }
 
 bool has_details(const Document& document) {
-  return std::any_of(
-      document.sections.begin(), document.sections.end(),
-      [](const Section& section) { return section.importance == Importance::detail; });
+  return std::ranges::any_of(document.sections, [](const Section& section) {
+    return section.importance == Importance::detail;
+  });
 }
 
 /// Links to the sections; empty for pages of cards and for pages with folded sections.

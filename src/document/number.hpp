@@ -47,7 +47,6 @@ Notation in_percent(Notation notation, const std::string& suffix = " %");
 /// `value` in this notation; "n/a" if it is not finite.
 std::string text_of(double value, const Notation& notation);
 
-/// An interval.
 struct NumberRange {
   double lower = std::numeric_limits<double>::quiet_NaN();
   double upper = std::numeric_limits<double>::quiet_NaN();
@@ -71,7 +70,6 @@ struct Number {
   operator Sentence() const { return words(); }
 };
 
-/// A whole number.
 template <class Count>
 Number whole(Count count) {
   return {static_cast<double>(count), fixed(0)};

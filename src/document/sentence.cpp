@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 7> unit_names = {"um",    "uN",    "us", 
 
 bool is_symbol_name(std::string_view name) {
   return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::all_of(name.begin(), name.end(), [](char c) {
+         std::ranges::all_of(name, [](char c) {
            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '*';
          });
 }
@@ -24,7 +24,7 @@ bool is_symbol_name(std::string_view name) {
 /// The run for a name in braces: a unit, a symbol or the sign +/-.
 Run named_run(std::string_view name) {
   if (name == "+/-") return {RunKind::plus_minus, "+/-"};
-  if (std::find(unit_names.begin(), unit_names.end(), name) != unit_names.end()) {
+  if (std::ranges::find(unit_names, name) != unit_names.end()) {
     return {RunKind::unit, std::string(name)};
   }
   if (!is_symbol_name(name)) {

@@ -20,7 +20,6 @@ std::size_t output_columns();
 /// indented by `indent` spaces. A word that is too long is cut.
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
-/// The lines of a text.
 std::vector<std::string> lines_of(std::string_view text);
 
 std::string terminal_text(const Section& section, std::size_t columns = terminal_columns);

@@ -191,7 +191,7 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
   });
   result.outside_sizes = all - arrivals.size();
   for (Arrival& arrival : arrivals) {
-    const auto above = std::upper_bound(edges.begin(), edges.end(), arrival.diameter);
+    const auto above = std::ranges::upper_bound(edges, arrival.diameter);
     arrival.size_class =
         std::min(static_cast<std::size_t>(above - edges.begin()), edges.size() - 1) - 1;
   }

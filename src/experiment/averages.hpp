@@ -12,7 +12,6 @@
 
 namespace recoil {
 
-/// How impacts are averaged into points.
 struct AverageOptions {
   std::size_t per_bin = 40;        ///< approximate number of impacts of one point
   std::size_t size_classes = 1;    ///< classes with equally many spheres, unless `size_edges`

@@ -136,7 +136,6 @@ struct ImportNote {
   double gravity = 0.0;  ///< [m/s2]
 };
 
-/// The result of an import.
 struct ImportResult {
   Dataset dataset;  ///< the written dataset as `load_dataset` reads it
   std::vector<ImportNote> notes;

@@ -426,9 +426,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     }
     if (counted) point.value[Quantity::captured] = d.captured;
     // Drops from one height share its error.
-    if (shared) {
-      point.setting = fmt::format("{} from {:.6g} mm", d.series, d.height / units::mm);
-    }
+    if (shared) point.setting = fmt::format("{} from {:.6g} mm", d.series, d.height / units::mm);
     out.points.push_back(point);
   }
   if (few) out.notes.push_back({ImportRemark::few_drops});

@@ -242,9 +242,7 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
   existing.json = parse_json(text, file);
   existing.provenance = package.provenance;
   existing.points_path = package.points_path;
-  for (const Column& column : package.columns) {
-    existing.units[column.name] = column.unit;
-  }
+  for (const Column& column : package.columns) existing.units[column.name] = column.unit;
   return existing;
 }
 

@@ -439,7 +439,7 @@ void ImportTable::read_header() {
       return cell.text.empty() || dimension_of_unit(without_brackets(cell.text));
     };
     if (rows_.size() > 1 && filled(rows_.front()) > 0 && !has_number(rows_.front(), format_) &&
-        std::all_of(rows_.front().begin(), rows_.front().end(), is_unit)) {
+        std::ranges::all_of(rows_.front(), is_unit)) {
       units_ = rows_.front();
       rows_.erase(rows_.begin());
     }

@@ -40,7 +40,6 @@ std::string usual_unit(const std::string& quantity, Dimension dimension);
 /// Splits at commas outside quotation marks, and removes blanks around the parts.
 std::vector<std::string> split_list(std::string_view text);
 
-/// The parts of several lists.
 std::vector<std::string> split_lists(const std::vector<std::string>& lists);
 
 /// Splits "name=value" at the first '='; nullopt if there is none.
@@ -79,7 +78,6 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 /// @throws InputError for a point without a diameter, and for a --diameter of no series
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
 
-/// The notation of numbers in the file.
 NumberFormat number_format(const ImportRequest& request);
 
 /// The rows of the request's text. The delimiter is the tab, semicolon, comma, bar or blank that
@@ -94,7 +92,6 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
 /// @throws InputError as `read_bytes` and `read_sheet`, and for UTF-16
 std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes);
 
-/// A quantity of a format.
 struct ImportQuantity {
   std::string name;  ///< left of '=' in --map
   Dimension dimension = Dimension::text;

@@ -13,7 +13,6 @@
 #include "experiment/flight.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr std::size_t none = SIZE_MAX;
@@ -114,16 +113,6 @@ class Chooser {
   std::vector<std::size_t> list_;   ///< links by `from`
 };
 
-}  // namespace
-
-Matching match(const std::vector<Link>& links, std::size_t passages, double price) {
-  Chooser chooser(links, passages);
-  chooser.take_by_cost();
-  chooser.exchange(price);
-  return {chooser.chosen(), chooser.exchanged()};
-}
-namespace {
-
 constexpr std::size_t most_candidates = 200;  ///< per passage
 constexpr std::size_t fewest_to_refine = 12;  ///< pairs; with fewer the estimate is kept
 /// Of one impact [1]. Errors can bring it above 1; a limit near 1 would select by the errors and
@@ -149,6 +138,12 @@ double densest(std::vector<double> values, double width) {
 
 }  // namespace
 
+Matching match(const std::vector<Link>& links, std::size_t passages, double price) {
+  Chooser chooser(links, passages);
+  chooser.take_by_cost();
+  chooser.exchange(price);
+  return {chooser.chosen(), chooser.exchanged()};
+}
 LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>& deviation,
                          double lowest, double highest) {
   constexpr std::size_t least = 60;
@@ -174,7 +169,7 @@ LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>
 double LocalSpread::at(double x) const {
   if (x <= x_.front()) return sd_.front();
   if (x >= x_.back()) return sd_.back();
-  const auto above = std::upper_bound(x_.begin(), x_.end(), x);
+  const auto above = std::ranges::upper_bound(x_, x);
   const auto i = static_cast<std::size_t>(above - x_.begin());
   const double share = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
   return sd_[i - 1] + share * (sd_[i] - sd_[i - 1]);

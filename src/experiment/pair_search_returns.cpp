@@ -82,7 +82,7 @@ std::vector<double> sorted_costs(const std::vector<Link>& links) {
 }
 
 double count_below(const std::vector<double>& sorted, double cost) {
-  return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), cost) - sorted.begin());
+  return static_cast<double>(std::ranges::upper_bound(sorted, cost) - sorted.begin());
 }
 
 /// Runs `search(scale)` for the right time and for two wrong times, which give links by chance

@@ -12,7 +12,6 @@
 #include "data/datapackage.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr std::size_t most_bins = 2000;
@@ -40,6 +39,23 @@ Histogram filled(const std::vector<double>& values, std::size_t bins) {
   return histogram;
 }
 
+std::string known(double value) { return value > 0.0 ? fmt::format("{:.4g}", value) : ""; }
+
+std::string bins_csv(const std::vector<double>& values, double unit) {
+  std::string out = "rule,lower,upper,middle,count,share\n";
+  for (const auto& [rule, histogram] :
+       {std::pair{"sturges", sturges(values)},
+        std::pair{"freedman-diaconis", freedman_diaconis(values)}}) {
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+      out += fmt::format(
+          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", rule, histogram.edge(i) / unit,
+          histogram.edge(i + 1) / unit, histogram.middle(i) / unit, histogram.counts[i],
+          static_cast<double>(histogram.counts[i]) / static_cast<double>(values.size()));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Histogram sturges(const std::vector<double>& values) {
@@ -60,27 +76,6 @@ Histogram freedman_diaconis(const std::vector<double>& values) {
   }
   return filled(values, bins);
 }
-namespace {
-
-std::string known(double value) { return value > 0.0 ? fmt::format("{:.4g}", value) : ""; }
-
-std::string bins_csv(const std::vector<double>& values, double unit) {
-  std::string out = "rule,lower,upper,middle,count,share\n";
-  for (const auto& [rule, histogram] :
-       {std::pair{"sturges", sturges(values)},
-        std::pair{"freedman-diaconis", freedman_diaconis(values)}}) {
-    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-      out += fmt::format(
-          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", rule, histogram.edge(i) / unit,
-          histogram.edge(i + 1) / unit, histogram.middle(i) / unit, histogram.counts[i],
-          static_cast<double>(histogram.counts[i]) / static_cast<double>(values.size()));
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string points_csv(const Averages& averages) {
   std::string out =
       "series,diameter,incident_velocity,velocity_sd,restitution,restitution_sd,events,captured\n";

@@ -41,7 +41,6 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
   }
 }
 
-/// A field of the passages.
 struct Field {
   std::string_view name;
   Dimension dimension;
@@ -56,7 +55,6 @@ constexpr std::array<Field, 5> fields = {{
     {"series", Dimension::text, false, nullptr},
 }};
 
-/// The column of a field.
 struct FieldColumn {
   const Field* field = nullptr;
   std::size_t index = 0;

@@ -53,7 +53,6 @@ struct PassageTable {
 
 inline constexpr std::size_t most_examples = 3;
 
-/// The format of an instrument's file.
 struct PassageFormat {
   /// Units by field (time, velocity, tangential_velocity, diameter, series). They override the data
   /// package.

@@ -54,8 +54,7 @@ ContactForce force_of(const Approximation& approximation, const ExportedImpact& 
 }
 
 Approximation nearest(StockModel model, const ExportedImpact& impact, double least_restitution) {
-  if (std::all_of(impact.restitution.begin(), impact.restitution.end(),
-                  [](double e) { return e == 0.0; })) {
+  if (std::ranges::all_of(impact.restitution, [](double e) { return e == 0.0; })) {
     throw InputError({},
                      fmt::format("every sphere from {:.4g} to {:.4g} m/s is captured",
                                  impact.request.slowest, impact.request.fastest),

@@ -58,7 +58,6 @@ enum class ExportForm {
 /// The best form of this impact for `target`. @param stock requires a contact model of the program
 ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stock = false);
 
-/// The stock model of `target`.
 StockModel stock_model(ExportTarget target);
 
 /// The smallest constant e that `target` accepts: LIGGGHTS 3.8 rejects 0.05 and less.

@@ -22,7 +22,7 @@ constexpr std::size_t most_sizes = 17;
 std::pair<std::size_t, double> between(const std::vector<double>& values, double at) {
   if (values.size() == 1 || at <= values.front()) return {0, 0.0};
   if (at >= values.back()) return {values.size() - 2, 1.0};
-  const auto above = std::upper_bound(values.begin(), values.end(), at);
+  const auto above = std::ranges::upper_bound(values, at);
   const auto i = static_cast<std::size_t>(above - values.begin()) - 1;
   return {i, (at - values[i]) / (values[i + 1] - values[i])};
 }
@@ -60,7 +60,7 @@ RestitutionLookup with_nodes(const Question& q, std::size_t nodes, std::size_t s
   if (!out.captures) out.scale.assign(out.diameter.size(), 1.0);
   out.slowest = q.request.slowest;
   out.fastest = q.request.fastest;
-  const double least = *std::min_element(out.scale.begin(), out.scale.end());
+  const double least = *std::ranges::min_element(out.scale);
   const double first = out.captures ? 1.0 : out.slowest;
   const double last = std::max(out.fastest / least, 1.01 * first);
   for (std::size_t k = 0; k < nodes; ++k) {  // densest near capture

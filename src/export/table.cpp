@@ -33,7 +33,7 @@ std::vector<double> tabulated(double slowest, double fastest, double capture) {
 void set_band(BandedNumber& number, std::vector<double> values, double level) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.size() < fewest_for_a_band) return;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double tail = (1.0 - level) / 2.0;
   number.banded = true;
   number.lower = sorted_quantile(values, tail);

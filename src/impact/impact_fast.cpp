@@ -8,7 +8,6 @@
 #include "impact/laws.hpp"
 
 namespace recoil {
-
 namespace {
 
 /// True if the kernel gives the digits of `baseline` for a rebound, a capture and a strongly damped

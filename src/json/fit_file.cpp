@@ -11,7 +11,6 @@
 #include "core/program.hpp"
 
 namespace recoil {
-
 namespace {
 
 /// @throws InputError unless `json` has the format_version of this program
@@ -32,6 +31,37 @@ void require_format(const std::string& file, const Json& json) {
                                older ? "which is older" : "which is newer"),
                    reads,
                    older ? again : "read it with that recoil, or make it again with this one");
+}
+
+/// @throws InputError unless these values were fitted to the present `datasets`
+void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const std::string& path) {
+  const auto same_id = [](const DatasetEntry& fitted, const Dataset& now) {
+    return fitted.id == now.id;
+  };
+  if (!std::equal(fit.datasets.begin(), fit.datasets.end(), datasets.begin(), datasets.end(),
+                  same_id)) {
+    std::vector<std::string> ids;
+    for (const DatasetEntry& dataset : fit.datasets) ids.push_back(dataset.id);
+    throw InputError({path}, fmt::format("these values were fitted to {}", fmt::join(ids, " + ")),
+                     "the fit file names other data", "use the fit.json of this fit file");
+  }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (fit.datasets[d].sha256 == datasets[d].sha256) continue;
+    throw InputError({path}, fmt::format("{} has changed since", datasets[d].id),
+                     "these values belong to the files as they were", "run recoil fit again");
+  }
+}
+
+std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
+  std::map<std::string, FittedValue> values;
+  for (const auto& [name, parameter] : fit.parameters) {
+    const auto& value = parameter.value.value;
+    if (value) values[name] = {*value, parameter.std_error.value};
+  }
+  for (const auto& [name, constant] : fit.constants) {
+    if (constant.value) values[name] = {*constant.value, constant.std_error};
+  }
+  return values;
 }
 
 }  // namespace
@@ -67,41 +97,6 @@ std::optional<Ends> recommended_interval(const FitFile::Parameter& parameter) {
   return std::nullopt;
 }
 
-namespace {
-
-/// @throws InputError unless these values were fitted to the present `datasets`
-void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const std::string& path) {
-  const auto same_id = [](const DatasetEntry& fitted, const Dataset& now) {
-    return fitted.id == now.id;
-  };
-  if (!std::equal(fit.datasets.begin(), fit.datasets.end(), datasets.begin(), datasets.end(),
-                  same_id)) {
-    std::vector<std::string> ids;
-    for (const DatasetEntry& dataset : fit.datasets) ids.push_back(dataset.id);
-    throw InputError({path}, fmt::format("these values were fitted to {}", fmt::join(ids, " + ")),
-                     "the fit file names other data", "use the fit.json of this fit file");
-  }
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    if (fit.datasets[d].sha256 == datasets[d].sha256) continue;
-    throw InputError({path}, fmt::format("{} has changed since", datasets[d].id),
-                     "these values belong to the files as they were", "run recoil fit again");
-  }
-}
-
-std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
-  std::map<std::string, FittedValue> values;
-  for (const auto& [name, parameter] : fit.parameters) {
-    const auto& value = parameter.value.value;
-    if (value) values[name] = {*value, parameter.std_error.value};
-  }
-  for (const auto& [name, constant] : fit.constants) {
-    if (constant.value) values[name] = {*constant.value, constant.std_error};
-  }
-  return values;
-}
-
-}  // namespace
-
 std::optional<FitFile> read_parameters(const std::string& path) {
   if (path.empty()) return std::nullopt;
   return read_fit_file(path, read_text_file(path), "--parameters");
@@ -126,9 +121,8 @@ std::vector<FittedValue> take_fitted_values(ImpactModel& model,
     }
     const auto found = fitted.find(slot.label());
     if (found == fitted.end()) {
-      const auto without_value =
-          std::find_if(fit.parameters.begin(), fit.parameters.end(),
-                       [&](const auto& parameter) { return parameter.first == slot.label(); });
+      const auto without_value = std::ranges::find_if(
+          fit.parameters, [&](const auto& parameter) { return parameter.first == slot.label(); });
       if (without_value != fit.parameters.end()) {
         throw InputError({path},
                          fmt::format("the parameter {} has no value: {}", slot.label(),

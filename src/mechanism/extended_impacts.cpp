@@ -114,13 +114,13 @@ T base_square(const Groups<T>& groups, const ImpactResult& impact) {
   return square;
 }
 
-/// Calls act(mechanism, its parameters) for every mechanism of the chain, from the outside in.
+/// Calls act(law, its parameters) for every mechanism of the chain, from the outside in.
 template <class T, class Act>
 void for_each_in_chain(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
   std::size_t first = 0;
   for (const Mechanism* mechanism : chain) {
     const std::size_t count = mechanism->info.parameters.size();
-    act(*mechanism, own.subspan(first, count));
+    act(mechanism->template law<T>(), own.subspan(first, count));
     first += count;
   }
 }
@@ -131,7 +131,7 @@ void back_along(std::span<const Mechanism* const> chain, std::span<const T> own,
   for (std::size_t k = chain.size(); k-- > 0;) {
     const std::size_t count = chain[k]->info.parameters.size();
     last -= count;
-    act(*chain[k], own.subspan(last, count));
+    act(chain[k]->template law<T>(), own.subspan(last, count));
   }
 }
 
@@ -141,8 +141,7 @@ void approach(std::span<const Mechanism* const> chain, std::span<const T> own, s
               std::size_t nodes, Encounter<T>& e) {
   std::size_t rest = node;
   std::size_t stride = nodes;
-  for_each_in_chain<T>(chain, own, [&](const Mechanism& mechanism, std::span<const T> its) {
-    const MechanismLaw<T>& law = mechanism.law<T>();
+  for_each_in_chain<T>(chain, own, [&](const MechanismLaw<T>& law, std::span<const T> its) {
     if (law.vary != nullptr) {
       stride /= spread_nodes;
       law.vary(e, its, spread_positions()[rest / stride]);
@@ -216,9 +215,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
     }
   };
   const auto take_values = [&](std::size_t i) {
-    for (std::size_t j = 0; j < count; ++j) {
-      work.values[j] = variable(values[i * count + j], j + 2);
-    }
+    for (std::size_t j = 0; j < count; ++j) work.values[j] = variable(values[i * count + j], j + 2);
     return std::span<const T>(work.values).subspan(base_directions - 2);
   };
 
@@ -253,8 +250,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       if (!impact.usable()) answer.outcome = impact.outcome;
       Encounter<T>& e = work.encounters[i * nodes_ + node];
       e.square += base_square(work.groups[i * nodes_ + node], impact) * (e.velocity * e.velocity);
-      back_along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
-        const MechanismLaw<T>& law = mechanism.law<T>();
+      back_along<T>(chain_, own, [&](const MechanismLaw<T>& law, std::span<const T> its) {
         if (law.after != nullptr) law.after(e, its);
       });
       work.squares[node] = e.square / (e.measured_velocity * e.measured_velocity);
@@ -274,8 +270,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       }
     }
     Observed<T> observed{work.squares.front(), work.encounters[i * nodes_].measured_velocity};
-    for_each_in_chain<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
-      const MechanismLaw<T>& law = mechanism.law<T>();
+    for_each_in_chain<T>(chain_, own, [&](const MechanismLaw<T>& law, std::span<const T> its) {
       if (law.observe != nullptr) law.observe(observed, its);
     });
     answer.restitution_squared = value_of(observed.square);
@@ -317,8 +312,7 @@ WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
   Encounter<double> e = approaching<double>(point, values, point.velocity, point.diameter);
   WholeImpactEnergy energy;
   for_each_in_chain<double>(chain, own,
-                            [&](const Mechanism& mechanism, std::span<const double> its) {
-                              const MechanismLaw<double>& law = mechanism.law<double>();
+                            [&](const MechanismLaw<double>& law, std::span<const double> its) {
                               if (law.vary != nullptr) law.vary(e, its, 0.0);
                               const double before = e.velocity * e.velocity + e.square;
                               if (law.before != nullptr) law.before(e, its);
@@ -327,8 +321,7 @@ WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
   const double returned = base_square(groups_at_contact(e), impact) * e.velocity * e.velocity;
   energy.contact = e.velocity * e.velocity - returned;
   e.square += returned;
-  back_along<double>(chain, own, [&](const Mechanism& mechanism, std::span<const double> its) {
-    const MechanismLaw<double>& law = mechanism.law<double>();
+  back_along<double>(chain, own, [&](const MechanismLaw<double>& law, std::span<const double> its) {
     const double before = e.square;
     if (law.after != nullptr) law.after(e, its);
     energy.out.insert(energy.out.begin(), before - e.square);

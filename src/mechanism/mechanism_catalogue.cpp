@@ -42,9 +42,7 @@ const Mechanism* find_mechanism(std::string_view id) {
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids) {
   std::vector<const Mechanism*> chain;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
-    if (std::ranges::find(ids, mechanism.info.id) != ids.end()) {
-      chain.push_back(&mechanism);
-    }
+    if (std::ranges::find(ids, mechanism.info.id) != ids.end()) chain.push_back(&mechanism);
   }
   return chain;
 }

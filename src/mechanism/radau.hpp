@@ -54,9 +54,7 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
     };
     // Starts with the last rate.
     Stages at;
-    for (int j = 0; j < 3; ++j) {
-      at(j) = value_of(lost) + radau_place(j, steps) * last_rate;
-    }
+    for (int j = 0; j < 3; ++j) at(j) = value_of(lost) + radau_place(j, steps) * last_rate;
     Stages miss = miss_at(at);
     Eigen::Matrix3d inverse;
     bool done = false;

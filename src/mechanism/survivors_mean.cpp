@@ -75,9 +75,7 @@ template <class T>
 double slope_at(const Basis& basis, std::span<const T> x) {
   double sum = 0.0;
   const double middle = value_of(x[spread_nodes / 2]);
-  for (std::size_t k = 0; k < spread_nodes; ++k) {
-    sum += basis.slope[k] * (value_of(x[k]) - middle);
-  }
+  for (std::size_t k = 0; k < spread_nodes; ++k) sum += basis.slope[k] * (value_of(x[k]) - middle);
   return sum;
 }
 

@@ -32,7 +32,6 @@ struct OptionRow {
 /// Every option of every command, in the order of help and manual.
 const std::vector<OptionRow>& option_rows();
 
-/// The options of a command.
 std::vector<const OptionRow*> options_of(std::string_view command);
 
 /// The options that are keyword arguments of a function of Python.

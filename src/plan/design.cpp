@@ -48,9 +48,7 @@ Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<d
 
 Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<double>& counts) {
   const Factor factor(information_of(problem, counts));
-  if (!is_regular(factor)) {
-    return Eigen::VectorXd::Constant(problem.asked.cols(), INFINITY);
-  }
+  if (!is_regular(factor)) return Eigen::VectorXd::Constant(problem.asked.cols(), INFINITY);
   return factor.matrixL().solve(problem.asked).colwise().squaredNorm().transpose();
 }
 
@@ -90,7 +88,7 @@ double least_possible_sum(const DesignProblem& problem, const std::vector<double
 }
 
 std::vector<int> whole_points(const std::vector<double>& shares, int points) {
-  const auto made = std::count_if(shares.begin(), shares.end(), [](double w) { return w > 0.0; });
+  const auto made = std::ranges::count_if(shares, [](double w) { return w > 0.0; });
   std::vector<int> counts(shares.size(), 0);
   int total = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {

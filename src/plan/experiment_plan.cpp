@@ -91,9 +91,8 @@ PlannedScatter planned_scatter(const PlanOptions& options, const NoiseSpec& nois
   scatter.events = options.events;
   scatter.velocity_error = noise.velocity_relative_sd;
   scatter.diameter_error = noise.diameter_relative_sd;
-  scatter.rebound_measured =
-      std::any_of(dataset.columns.begin(), dataset.columns.end(),
-                  [](const DataColumn& column) { return column.name == "rebound_velocity"; });
+  scatter.rebound_measured = std::ranges::any_of(
+      dataset.columns, [](const DataColumn& column) { return column.name == "rebound_velocity"; });
   return scatter;
 }
 
@@ -118,11 +117,10 @@ void add_settings(const PlacedPoints& placed, std::vector<PlannedSetting>& setti
     if (placed.counts[i] == 0) continue;
     const PointConditions& at = placed.points.at[i];
     const PointOutlook& outlook = placed.points.outlook[i];
-    const auto same =
-        std::find_if(settings.begin(), settings.end(), [&](const PlannedSetting& other) {
-          return other.dataset == at.dataset && other.diameter == at.diameter &&
-                 other.velocity == at.velocity;
-        });
+    const auto same = std::ranges::find_if(settings, [&](const PlannedSetting& other) {
+      return other.dataset == at.dataset && other.diameter == at.diameter &&
+             other.velocity == at.velocity;
+    });
     if (same != settings.end()) {
       same->points += placed.counts[i];
       continue;
@@ -136,11 +134,10 @@ void add_settings(const PlacedPoints& placed, std::vector<PlannedSetting>& setti
 std::vector<PlannedSetting> settings_of(const std::vector<PlacedPoints>& all) {
   std::vector<PlannedSetting> settings;
   for (const PlacedPoints& placed : all) add_settings(placed, settings);
-  std::sort(settings.begin(), settings.end(),
-            [](const PlannedSetting& one, const PlannedSetting& other) {
-              return std::tie(one.dataset, one.diameter, one.velocity) <
-                     std::tie(other.dataset, other.diameter, other.velocity);
-            });
+  std::ranges::sort(settings, [](const PlannedSetting& one, const PlannedSetting& other) {
+    return std::tie(one.dataset, one.diameter, one.velocity) <
+           std::tie(other.dataset, other.diameter, other.velocity);
+  });
   for (PlannedSetting& setting : settings) setting.sd /= std::sqrt(setting.points);
   return settings;
 }
@@ -335,9 +332,7 @@ class Planner {
     std::vector<std::string> lost;
     for (Eigen::Index q = 0; q < variances.size(); ++q) {
       const PlannedQuantity& quantity = plan_.quantities[static_cast<std::size_t>(q)];
-      if (!(variances(q) < 1.0) && quantity.is_parameter()) {
-        lost.push_back(quantity.label);
-      }
+      if (!(variances(q) < 1.0) && quantity.is_parameter()) lost.push_back(quantity.label);
     }
     if (lost.empty()) return;
     throw ComputationError(fmt::format(
@@ -420,8 +415,8 @@ class Planner {
     }
     std::erase_if(places, [](const LearntAt& place) { return place.share < least_share; });
     for (LearntAt& place : places) place.velocity /= place.share;
-    std::sort(places.begin(), places.end(),
-              [](const LearntAt& a, const LearntAt& b) { return a.share > b.share; });
+    std::ranges::sort(places,
+                      [](const LearntAt& a, const LearntAt& b) { return a.share > b.share; });
     return places;
   }
 
@@ -459,7 +454,7 @@ void take_points(ExperimentPlan& plan) {
 }
 
 std::vector<double> sorted_unique(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }

@@ -176,9 +176,7 @@ std::string mark_path(Mark mark, double x, double y, double r) {
 
 /// The attributes of a mark. A dot is a stroke of length 0 with round ends, which takes few bytes.
 std::string mark_look(const Marker& marker, double r, double width) {
-  if (marker.mark == Mark::dot) {
-    return pen(marker.colour, 2.0 * r) + " stroke-linecap=\"round\"";
-  }
+  if (marker.mark == Mark::dot) return pen(marker.colour, 2.0 * r) + " stroke-linecap=\"round\"";
   return is_filled(marker.mark) ? fmt::format(" fill=\"{}\"", marker.colour)
                                 : pen(marker.colour, width);
 }
@@ -240,9 +238,8 @@ class PlotWriter {
       : plot_(plot), id_(fmt::format("{}_plot_{}", picture.name, number)) {
     for (const Layer& layer : plot.layers) {
       const std::string& name = name_of(layer);
-      const bool again = std::any_of(entries_.begin(), entries_.end(), [&](const KeyEntry& one) {
-        return name_of(*one.layer) == name;
-      });
+      const bool again = std::ranges::any_of(
+          entries_, [&](const KeyEntry& one) { return name_of(*one.layer) == name; });
       if (name.empty() || again || plot.key == KeyPlace::none) continue;
       entries_.push_back({&layer, sample_width + 8.0 + width_of(name, letter)});
     }

@@ -137,8 +137,7 @@ std::string csv_of(const Picture& picture) {
   std::vector<Column> sheet;
   std::size_t rows = 0;
   const auto column = [&](const std::string& title) {
-    return std::find_if(sheet.begin(), sheet.end(),
-                        [&](const Column& one) { return one.title == title; });
+    return std::ranges::find_if(sheet, [&](const Column& one) { return one.title == title; });
   };
   const auto fill = [&](const Column& from, std::size_t row) {
     auto to = column(from.title);
@@ -152,7 +151,7 @@ std::string csv_of(const Picture& picture) {
     for (const Layer& layer : plot.layers) {
       std::vector<Column> columns = columns_of(layer, plot);
       if (columns.empty()) continue;
-      const auto same = std::find_if(begun.begin(), begun.end(), [&](const auto& one) {
+      const auto same = std::ranges::find_if(begun, [&](const auto& one) {
         return one.first.title == columns[0].title && one.first.values == columns[0].values;
       });
       const std::size_t row = same == begun.end() ? rows : same->second;

@@ -69,7 +69,6 @@ struct Fill {
   double opacity = 1.0;
 };
 
-/// A range on an axis.
 struct Range {
   double lower = 0.0;
   double upper = 1.0;

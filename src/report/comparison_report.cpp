@@ -14,7 +14,6 @@
 #include "report/result_json.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr double errors_to_end = 1.96;  // half width of a 95 % interval in standard errors
@@ -24,9 +23,7 @@ std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits) {
   std::vector<std::string> names;
   for (const ComparedFit& fit : fits) {
     for (const ComparedQuantity& quantity : fit.quantities) {
-      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
-        names.push_back(quantity.name);
-      }
+      if (std::ranges::find(names, quantity.name) == names.end()) names.push_back(quantity.name);
     }
   }
   return names;
@@ -44,9 +41,7 @@ void require_same_data(const std::vector<ComparedFit>& fits) {
 
 /// Null if the fit does not have the quantity.
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
-  const auto found =
-      std::find_if(fit.quantities.begin(), fit.quantities.end(),
-                   [&](const ComparedQuantity& quantity) { return quantity.name == name; });
+  const auto found = std::ranges::find(fit.quantities, name, &ComparedQuantity::name);
   return found == fit.quantities.end() ? nullptr : &*found;
 }
 
@@ -185,6 +180,20 @@ struct LawsFile {
   RECOIL_FIELDS(laws)
 };
 
+ComparisonFile::Fit fit_of(const ComparedFit& fit, std::optional<double> best) {
+  const auto aicc = fit.aicc();
+  return {.id = fit.id,
+          .adhesion = value_named<AdhesionLaw>(fit.adhesion).value(),
+          .mechanisms = fit.mechanisms,
+          .free_parameters = fit.free_parameters,
+          .points = fit.points,
+          .chi2 = fit.chi2,
+          .aicc = aicc,
+          .aicc_above_best = aicc && best ? OrNull<double>(*aicc - *best) : std::nullopt,
+          .rmse = fit.rmse,
+          .held_out_rmse = fit.held_out_rmse};
+}
+
 }  // namespace
 
 std::optional<double> ComparedFit::aicc() const {
@@ -256,9 +265,7 @@ std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
 
 std::string laws_json(const std::vector<ComparedFit>& laws) {
   Json json = as_json(LawsFile{laws});
-  for (std::size_t k = 0; k < laws.size(); ++k) {
-    json["laws"][k]["aicc"] = as_json(laws[k].aicc());
-  }
+  for (std::size_t k = 0; k < laws.size(); ++k) json["laws"][k]["aicc"] = as_json(laws[k].aicc());
   return json_text(json);
 }
 
@@ -297,24 +304,6 @@ std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
   return {table, Paragraph{dependence_words(choice_dependence(laws))}};
 }
 
-namespace {
-
-ComparisonFile::Fit fit_of(const ComparedFit& fit, std::optional<double> best) {
-  const auto aicc = fit.aicc();
-  return {.id = fit.id,
-          .adhesion = value_named<AdhesionLaw>(fit.adhesion).value(),
-          .mechanisms = fit.mechanisms,
-          .free_parameters = fit.free_parameters,
-          .points = fit.points,
-          .chi2 = fit.chi2,
-          .aicc = aicc,
-          .aicc_above_best = aicc && best ? OrNull<double>(*aicc - *best) : std::nullopt,
-          .rmse = fit.rmse,
-          .held_out_rmse = fit.held_out_rmse};
-}
-
-}  // namespace
-
 std::string comparison_json(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
   const std::optional<double> best = lowest_aicc(fits);
@@ -332,7 +321,7 @@ std::string comparison_json(const std::vector<ComparedFit>& fits) {
       of_fit = {found->value, found->free, found->interval};
     }
     const auto is_in = [&](const std::vector<std::string>& names) {
-      return std::find(names.begin(), names.end(), name) != names.end();
+      return std::ranges::find(names, name) != names.end();
     };
     if (is_in(dependence.depends)) entry.depends_on_choice = true;
     if (is_in(dependence.holds)) entry.depends_on_choice = false;

@@ -60,7 +60,6 @@ std::string capture_name(double diameter_um, const std::string& dataset, std::si
 std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
                                        const std::vector<Dataset>& datasets);
 
-/// The content of laws.json.
 std::string laws_json(const std::vector<ComparedFit>& laws);
 
 /// Names of the quantities that have intervals in several fits.

@@ -14,7 +14,6 @@
 namespace recoil {
 namespace {
 
-/// The range of the added values.
 struct Span {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -std::numeric_limits<double>::infinity();
@@ -75,9 +74,7 @@ Sentence override_words(const ImpactSystem& system) {
   if (system.adhesion_energy) {
     stated.push_back(say("adhesion energy {:g} {J/m2}", *system.adhesion_energy));
   }
-  if (system.adhesion_force_f0) {
-    stated.push_back(say("{f0} {:g} N/m", *system.adhesion_force_f0));
-  }
+  if (system.adhesion_force_f0) stated.push_back(say("{f0} {:g} N/m", *system.adhesion_force_f0));
   if (system.reference_diameter) {
     stated.push_back(say("reference diameter {}", diameter_sentence(*system.reference_diameter)));
   }

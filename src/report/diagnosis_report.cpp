@@ -19,7 +19,6 @@ constexpr std::size_t most_pairs = 8;
 constexpr std::size_t most_misfits_on_top = 2;  // figures of the misfit in the answer
 constexpr std::size_t summary_sentences = 3;    // on the page of the fit
 
-/// One parameter under the base or the extended model.
 struct FittedParameter {
   Cell estimate, interval;
   std::string remark;
@@ -44,7 +43,6 @@ FittedParameter fitted_parameter(const FitResult& fitted, const std::vector<Inte
   return {};
 }
 
-/// The remarks on a parameter under both models.
 Cell remark_on_both(const std::string& base, const std::string& extended) {
   if (base == extended) return Sentence(base);
   if (base.empty()) return Sentence(extended + " in the extended model");
@@ -86,9 +84,8 @@ std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   std::vector<CandidateResult> all = d.candidates;
   const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
   all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
-  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
-    return one.delta_aicc < other.delta_aicc;
-  });
+  std::ranges::stable_sort(
+      all, [](const auto& one, const auto& other) { return one.delta_aicc < other.delta_aicc; });
   return all;
 }
 
@@ -282,9 +279,8 @@ std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t col
   std::vector<Section> sections = diagnosis_sections(d);
   if (!d.spec.file.empty()) {
     const std::string file = d.spec.file.generic_string();
-    const auto first_detail =
-        std::find_if(sections.begin(), sections.end(),
-                     [](const Section& one) { return one.importance == Importance::detail; });
+    const auto first_detail = std::ranges::find_if(
+        sections, [](const Section& one) { return one.importance == Importance::detail; });
     sections.insert(
         first_detail,
         shown_section(

@@ -26,14 +26,12 @@ std::vector<Section> diagnosis_sections(const Diagnosis& diagnosis);
 /// @param address of the page of the diagnosis; may be empty
 Section diagnosis_summary(const Diagnosis& diagnosis, const std::string& address = "");
 
-/// The page of a diagnosis.
 Document diagnosis_document(const Diagnosis& diagnosis);
 
 /// The output of `recoil diagnose`: the answer, or the answer with the details.
 std::string diagnosis_text(const Diagnosis& diagnosis, Importance least,
                            std::size_t columns = terminal_columns);
 
-/// The page as one self-contained file.
 std::string diagnosis_html(const Diagnosis& diagnosis);
 
 }  // namespace recoil

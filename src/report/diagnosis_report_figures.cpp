@@ -59,7 +59,7 @@ bool has_deviations(const Diagnosis& d, std::size_t dataset) {
 /// The range of the values for a logarithmic axis. The margin is a power of the ratio of largest
 /// and smallest value, which counts as at least 1.5.
 plot::Range log_range(const std::vector<double>& values, double margin) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   const double factor = std::pow(std::max(*high / *low, 1.5), margin);
   return {*low / factor, *high * factor};
 }
@@ -75,7 +75,7 @@ plot::Axis velocity_axis_of(const Deviations& deviations, double margin) {
 std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range range) {
   constexpr std::size_t most = 8;
   const double nearest = std::pow(range.upper / range.lower, 0.07);
-  std::sort(diameters.begin(), diameters.end());
+  std::ranges::sort(diameters);
   std::vector<plot::Tick> ticks;
   for (const double d : diameters) {
     if (!ticks.empty() && d < ticks.back().at * nearest) continue;
@@ -105,9 +105,8 @@ plot::Axis vertical_axis(const Diagnosis& d, const Deviations& deviations, bool 
 
 Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   const Deviations deviations = deviations_of(d, dataset);
-  const bool one_size =
-      std::all_of(deviations.diameters.begin(), deviations.diameters.end(),
-                  [&](double size) { return size == deviations.diameters.front(); });
+  const bool one_size = std::ranges::all_of(
+      deviations.diameters, [&](double size) { return size == deviations.diameters.front(); });
   plot::Plot shown;
   shown.x = velocity_axis_of(deviations, 0.06);
   shown.y = vertical_axis(d, deviations, one_size);

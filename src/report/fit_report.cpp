@@ -41,8 +41,7 @@ Sentence capture_words(const Analysis& a) {
     if (capture.above && capture.below) {
       return say(
           "All impacts up to {:.3g} m/s were captured, none from {:.3g} m/s on: the capture "
-          "velocity "
-          "of {} lies between them.",
+          "velocity of {} lies between them.",
           *capture.above, *capture.below, who);
     }
     if (capture.above) {
@@ -237,7 +236,7 @@ Section inputs_section(const Analysis& a) {
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const Dataset& dataset = a.datasets[k];
     for (const std::string& source : dataset.sources) {
-      const auto same = std::find(sources.entries.begin(), sources.entries.end(), Sentence(source));
+      const auto same = std::ranges::find(sources.entries, Sentence(source));
       if (same == sources.entries.end()) sources.entries.emplace_back(source);
     }
     if (averages_over_sizes(a.fitted.model, k)) {
@@ -248,7 +247,6 @@ Section inputs_section(const Analysis& a) {
   return detail_section("inputs", "Data, model and method", std::move(blocks));
 }
 
-/// The commands for the next steps.
 Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
@@ -342,7 +340,7 @@ std::string fit_text(const Analysis& a, Importance least, std::size_t columns) {
     std::vector<Section> shorter;
     for (const Section& section : answer) shorter.push_back(shortened(section, rows));
     text = terminal_text(shorter, least, columns);
-    if (std::count(text.begin(), text.end(), '\n') <= most_lines) break;
+    if (std::ranges::count(text, '\n') <= most_lines) break;
   }
   return text;
 }

@@ -53,9 +53,7 @@ Table two_point_table(const Analysis& analysis, const TwoPointComparison& compar
 /// The method of the fit and its goodness.
 Table statistics_table(const Analysis& analysis);
 
-/// The material constants of every body.
 Table materials_table(const Analysis& analysis);
-/// The constants of the contact for every dataset.
 Table contact_table(const Analysis& analysis);
 
 /// The result of a fit, for the terminal and the page: first the answer (verdict, V*, parameters,

@@ -162,9 +162,7 @@ void add_explored_points(const Analysis& analysis, const Panel& panel, Json& out
     const auto value = [&](std::size_t i) {
       return column.second(fit.data.points[i], fit.weights.points[i]);
     };
-    if (std::all_of(drawn.begin(), drawn.end(), [&](std::size_t i) { return value(i) == 0.0; })) {
-      continue;
-    }
+    if (std::ranges::all_of(drawn, [&](std::size_t i) { return value(i) == 0.0; })) continue;
     out["columns"].push_back(column.first);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       out["points"][i].push_back(number_or_null(rounded(value(drawn[i]))));
@@ -181,8 +179,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel, const p
   const ContactProperties& contact = model.contacts[panel.dataset];
   const auto& points = fit.data.points;
   if (!model.chain.empty() || averages_over_sizes(model) || contact.surface_diameter > 0.0 ||
-      std::any_of(points.begin(), points.end(),
-                  [](const Observation& point) { return point.counts_only(); })) {
+      std::ranges::any_of(points, [](const Observation& point) { return point.counts_only(); })) {
     return "";
   }
   const ImpactConditions at = conditions_at(model, fit.theta, panel.dataset, panel.diameter, 1.0);
@@ -278,9 +275,8 @@ plot::Plot residual_plot(const std::vector<ResidualRow>& rows) {
 
 Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRow>& rows,
                           std::size_t dataset) {
-  const auto outside = std::count_if(rows.begin(), rows.end(), [](const ResidualRow& row) {
-    return std::abs(row.residual) > 2.0;
-  });
+  const auto outside = std::ranges::count_if(
+      rows, [](const ResidualRow& row) { return std::abs(row.residual) > 2.0; });
   return say(
       "{}: data minus fit in {}. {} of {} are outside the dashed lines, {:.0f} expected.",
       short_name(analysis.datasets, dataset),

@@ -28,8 +28,8 @@ Sentence label_with_unit(const Analysis& a, std::size_t slot) {
 
 std::size_t free_parameters(const FitResult& fitted) {
   const auto& slots = fitted.model.slots;
-  return static_cast<std::size_t>(std::count_if(
-      slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(slots, [](const ParameterSlot& slot) { return slot.free; }));
 }
 
 Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
@@ -81,8 +81,7 @@ std::string_view strategy_words(Strategy strategy) {
 
 std::string starts_words(const FitResult& f) {
   const auto count = [&](StartOutcome outcome) {
-    return std::count_if(f.starts.begin(), f.starts.end(),
-                         [&](const auto& start) { return start.outcome == outcome; });
+    return std::ranges::count(f.starts, outcome, &StartSummary::outcome);
   };
   const auto tied = count(StartOutcome::tie);
   return fmt::format("{} of {} starts reach the same minimum{}", 1 + count(StartOutcome::same),
@@ -143,7 +142,7 @@ Table parameters_table(const Analysis& a) {
     double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
     if (follows) error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
     if (!std::isfinite(error)) error = 0.0;
-    const bool flat = std::find(f.flat.begin(), f.flat.end(), s) != f.flat.end();
+    const bool flat = std::ranges::find(f.flat, s) != f.flat.end();
     const std::string remark = flat ? "no point depends on it" : remark_of(f, s, interval);
     Cell ends = interval_cell(interval, significant(3));
     if (!remark.empty()) {
@@ -164,10 +163,9 @@ Table constants_table(const Analysis& a) {
   Table table;
   if (a.fitted.std_error.empty()) return table;
   const bool adjusted = model.adjusts_constants();
-  table.caption = adjusted
-                      ? "Material constants with uncertainty, fitted with their stated values as "
-                        "priors"
-                      : "Material constants with uncertainty: their errors widen the intervals";
+  table.caption =
+      adjusted ? "Material constants with uncertainty, fitted with their stated values as priors"
+               : "Material constants with uncertainty: their errors widen the intervals";
   table.columns = {{"constant", "", true}, {"stated"}};
   if (adjusted) table.columns.insert(table.columns.end(), {{"fitted"}, {"moved", "sd"}});
   for (std::size_t k = 0; k < model.constants.size(); ++k) {
@@ -275,7 +273,7 @@ Table materials_table(const Analysis& a) {
                 {say("surface energy [{J/m2}]")}};
   std::vector<std::string> known;
   const auto add = [&](const Material& material, double energy) {
-    if (std::find(known.begin(), known.end(), material.name) != known.end()) return;
+    if (std::ranges::find(known, material.name) != known.end()) return;
     known.push_back(material.name);
     table.columns.push_back({material.name});
     const std::vector<Cell> cells = {

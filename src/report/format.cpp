@@ -25,9 +25,9 @@ std::string diameter_text(double diameter) {
 
 SizeUnit size_unit(std::span<const double> diameters) {
   constexpr double ball = 1e-3;  // [m]
-  const bool balls =
-      !diameters.empty() && std::all_of(diameters.begin(), diameters.end(),
-                                        [](double diameter) { return diameter >= ball; });
+  const bool balls = !diameters.empty() && std::ranges::all_of(diameters, [](double diameter) {
+    return diameter >= ball;
+  });
   return balls ? SizeUnit{1e-3, "mm", "mm"} : SizeUnit{units::um, "um", "µm"};
 }
 
@@ -103,7 +103,7 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
   std::vector<std::pair<std::string, std::string>> list;
   for (const Dataset& dataset : datasets) {
     const std::pair entry{to_string(dataset.provenance), provenance_sentence(dataset.provenance)};
-    if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+    if (std::ranges::find(list, entry) == list.end()) list.push_back(entry);
   }
   return list;
 }

@@ -90,7 +90,7 @@ std::string provenances_of(const std::vector<DatasetEntry>& datasets) {
   std::vector<std::string_view> known;
   for (const DatasetEntry& dataset : datasets) {
     const std::string_view name = name_of(dataset.provenance);
-    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+    if (std::ranges::find(known, name) == known.end()) known.push_back(name);
   }
   return fmt::format("{}", fmt::join(known, ", "));
 }
@@ -99,7 +99,7 @@ std::string provenances_of(const std::vector<DatasetEntry>& datasets) {
 void add_banners(const FitFile& fit, Blocks& blocks) {
   for (const DatasetEntry& dataset : fit.datasets) {
     const std::string label = to_string(dataset.provenance);
-    const bool known = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    const bool known = std::ranges::any_of(blocks, [&](const Block& block) {
       const auto* const banner = std::get_if<Banner>(&block.content());
       return banner != nullptr && banner->label == label;
     });

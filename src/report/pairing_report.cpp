@@ -14,7 +14,6 @@
 #include "report/result_json.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr double degree = M_PI / 180.0;
@@ -75,8 +74,8 @@ Sentence later_words(const PairingResult& pairs) {
     return "rebounds that come down again cannot be distinguished from chance; second impacts, if "
            "there are any, count as first ones";
   }
-  const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
-                                   [](const Impact& impact) { return impact.number > 1; });
+  const auto later =
+      std::ranges::count_if(pairs.impacts, [](const Impact& impact) { return impact.number > 1; });
   return say(
       "{} of them are second or further impacts, {}; {} rebounds were seen coming down again, "
       "{:.0f} of these by chance",
@@ -84,14 +83,12 @@ Sentence later_words(const PairingResult& pairs) {
       pairs.expected_returns);
 }
 
-/// Number and means of some impacts.
 struct Selected {
   std::size_t number = 0;
   double restitution = 0.0;
   double diameter = 0.0;  ///< [m]
 };
 
-/// The impacts for which `rule` is true.
 template <class Rule>
 Selected selected(const PairingResult& pairs, const Rule& rule) {
   Selected result;
@@ -257,8 +254,7 @@ std::string pairing_text(const PassageTable& table, const PairingResult& pairs,
 std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
                          const Averages& averages) {
   const auto count_of_impacts = [&](const auto& condition) {
-    return static_cast<std::size_t>(
-        std::count_if(pairs.impacts.begin(), pairs.impacts.end(), condition));
+    return static_cast<std::size_t>(std::ranges::count_if(pairs.impacts, condition));
   };
   const auto if_known = [](double value) {
     return value > 0.0 ? OrNull<double>(value) : std::nullopt;

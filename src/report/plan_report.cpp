@@ -15,7 +15,6 @@
 #include "report/words_validity.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr std::size_t most_places = 3;
@@ -192,22 +191,6 @@ std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string
           shown_section("limits", "Limits of the model", {limits_of_plan(plan)})};
 }
 
-}  // namespace
-
-std::string plan_text(const ExperimentPlan& plan, const std::string& assumed) {
-  return terminal_text(plan_sections(plan, assumed));
-}
-
-std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
-  Document page = page_of("Plan for " + plan.fit, plan.fit, plan_sections(plan, assumed));
-  page.heading = "What to measure";
-  page.subtitle = page.title;
-  page.sections.front().title = "Plan";
-  return html_page(page);
-}
-
-namespace {
-
 std::optional<double> whole_number(const std::optional<double>& value) {
   return value ? std::optional(std::ceil(*value)) : std::nullopt;
 }
@@ -235,6 +218,18 @@ PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity
 }
 
 }  // namespace
+
+std::string plan_text(const ExperimentPlan& plan, const std::string& assumed) {
+  return terminal_text(plan_sections(plan, assumed));
+}
+
+std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
+  Document page = page_of("Plan for " + plan.fit, plan.fit, plan_sections(plan, assumed));
+  page.heading = "What to measure";
+  page.subtitle = page.title;
+  page.sections.front().title = "Plan";
+  return html_page(page);
+}
 
 std::string json_plan(const ExperimentPlan& plan) {
   const PlanOptions& options = plan.options;

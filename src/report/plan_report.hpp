@@ -11,10 +11,8 @@ namespace recoil {
 /// @param assumed source of the values of the parameters
 std::string plan_text(const ExperimentPlan& plan, const std::string& assumed);
 
-/// The content of plan.html.
 std::string plan_html(const ExperimentPlan& plan, const std::string& assumed);
 
-/// The content of plan.json.
 std::string json_plan(const ExperimentPlan& plan);
 
 /// The planned points of a dataset as a CSV file to be filled in. It has the columns and units of

@@ -15,7 +15,6 @@
 #include "report/words_dataset.hpp"
 
 namespace recoil {
-
 namespace {
 
 constexpr std::size_t rows_shown = 14;
@@ -47,7 +46,6 @@ plot::Line line_of(const std::vector<double>& velocity, const std::vector<Banded
   return line;
 }
 
-/// Adds the points of the dataset.
 void add_points(const Analysis& analysis, std::size_t dataset, plot::Plot& shown) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
@@ -70,13 +68,12 @@ Cell banded(const BandedValue& at, const Notation& notation) {
 /// The averages under the three conventions and the curve of d10 at some velocities.
 Table averages_table(const PolydispersePrediction& mixture) {
   Table table;
-  table.caption = mixture.replicates > 0
-                      ? say("Mean restitution by convention, and captures, with pointwise {} bands "
-                            "of {} replicates",
-                            percent(mixture.level), mixture.replicates)
-                      : Sentence(
-                            "Mean restitution by convention, and captures, without bands: no "
-                            "bootstrap");
+  table.caption =
+      mixture.replicates > 0
+          ? say("Mean restitution by convention, and captures, with pointwise {} bands of {} "
+                "replicates",
+                percent(mixture.level), mixture.replicates)
+          : Sentence("Mean restitution by convention, and captures, without bands: no bootstrap");
   table.columns = {{say("{V}"), "m/s"},        {say("{d10} alone")}, {"captured as 0"},
                    {"captured left out"},      {"unseen left out"},  {"captured", "%"},
                    {"captured or unseen", "%"}};
@@ -118,9 +115,7 @@ Difference largest_difference(const PolydispersePrediction& mixture) {
   for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
     const auto& low = mixture.average[0][k].value;
     const auto& high = mixture.average[2][k].value;
-    if (low && high && *high - *low > largest.value) {
-      largest = {*high - *low, mixture.velocity[k]};
-    }
+    if (low && high && *high - *low > largest.value) largest = {*high - *low, mixture.velocity[k]};
   }
   return largest;
 }
@@ -147,7 +142,7 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
     }
   }
   if (!misses.empty() && mixture.miss_single.rmse) {
-    const auto best = std::min_element(misses.begin(), misses.end());
+    const auto best = std::ranges::min_element(misses);
     words.push_back(
         say("the points are closest to the average with {}: rms difference {} in {e}, for {d10} "
             "alone {}",
@@ -177,6 +172,20 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
           shown_section("misses", "Distance of the points", {misses_table(mixture)})};
 }
 
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6g}", *value) : std::string();
+}
+
+std::string cells(const BandedValue& at) {
+  return fmt::format(",{},{},{}", cell(at.value), cell(at.lower), cell(at.upper));
+}
+
+PredictionFile::Banded banded_entry(const BandedValue& at) {
+  PredictionFile::Banded out = {.value = at.value};
+  if (at.lower && at.upper) out.band = {*at.lower, *at.upper};
+  return out;
+}
+
 }  // namespace
 
 Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mixture) {
@@ -201,8 +210,7 @@ Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mi
   add_points(analysis, mixture.dataset, shown);
   const std::string caption = fmt::format(
       "The average over {} sizes under three conventions, with pointwise {} bands. Unseen: "
-      "rebounds "
-      "below {} m/s, which do not reach the measuring plane.",
+      "rebounds below {} m/s, which do not reach the measuring plane.",
       mixture.simulated, percent(mixture.level), number(mixture.slowest_seen, 3));
   const std::string title = shown.heading + ", " + analysis.datasets[mixture.dataset].id;
   return figure_of({.name = fmt::format("mixture-average-{}", mixture.dataset + 1),
@@ -224,24 +232,6 @@ Blocks mixture_blocks(const Analysis& analysis) {
   }
   return blocks;
 }
-
-namespace {
-
-std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6g}", *value) : std::string();
-}
-
-std::string cells(const BandedValue& at) {
-  return fmt::format(",{},{},{}", cell(at.value), cell(at.lower), cell(at.upper));
-}
-
-PredictionFile::Banded banded_entry(const BandedValue& at) {
-  PredictionFile::Banded out = {.value = at.value};
-  if (at.lower && at.upper) out.band = {*at.lower, *at.upper};
-  return out;
-}
-
-}  // namespace
 
 std::string csv_prediction(const PolydispersePrediction& mixture) {
   std::string csv = "incident_velocity_m_s,restitution_d10";

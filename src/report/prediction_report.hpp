@@ -24,7 +24,6 @@ std::vector<Block> mixture_blocks(const Analysis& analysis);
 /// cell without a value is empty.
 std::string csv_prediction(const PolydispersePrediction& mixture);
 
-/// The content of predict.json.
 std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture);
 
 }  // namespace recoil

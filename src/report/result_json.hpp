@@ -54,7 +54,6 @@ std::string fit_json(const Analysis& analysis);
 /// and ln prior. Empty without a posterior.
 std::string posterior_csv(const Analysis& analysis);
 
-/// The content of diagnosis.json.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
 /// The output of `recoil compare --json` for at least two fits. `quantities[].fits[]` is in the

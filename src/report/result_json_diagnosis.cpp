@@ -133,9 +133,8 @@ std::vector<DiagnosisFile::Unstated> unstated_of(const Diagnosis& d) {
   const std::vector<UnstatedErrors> rivals = rival_errors(d);
   std::vector<DiagnosisFile::Unstated> list;
   for (const UnstatedErrors& errors : d.unstated) {
-    const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
-      return other.source == errors.source;
-    });
+    const bool rival = std::ranges::any_of(
+        rivals, [&](const UnstatedErrors& other) { return other.source == errors.source; });
     list.push_back({.id = errors.source,
                     .value = errors.value,
                     .delta_aicc = errors.delta_aicc,

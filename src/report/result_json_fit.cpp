@@ -19,7 +19,6 @@
 namespace recoil {
 namespace {
 
-/// `value` if `condition` is true, otherwise nullopt.
 std::optional<double> only_if(bool condition, double value) {
   return condition ? std::optional(value) : std::nullopt;
 }
@@ -174,7 +173,7 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   const ParameterSlot& slot = f.model.slots[s];
   const IntervalSet set = intervals_of(a, s);
   FitFile::Parameter out;
-  const bool flat = std::find(f.flat.begin(), f.flat.end(), s) != f.flat.end();
+  const bool flat = std::ranges::find(f.flat, s) != f.flat.end();
   out.value = {only_if(!flat, acting_value(f.model, f.theta, s)),
                flat ? "no point depends on it" : "the estimate is not finite"};
   out.unit = slot.parameter->unit;
@@ -297,8 +296,8 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
 
 /// f.rmse; without a value if all points are captured, because e is then not known.
 OrReason<double> rmse_of(const FitResult& f) {
-  const bool known = std::any_of(f.data.points.begin(), f.data.points.end(),
-                                 [](const Observation& point) { return !point.censored; });
+  const bool known =
+      std::ranges::any_of(f.data.points, [](const Observation& point) { return !point.censored; });
   return {only_if(known, f.rmse), "no e is known"};
 }
 
@@ -323,9 +322,8 @@ FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;
   const Noise& noise = f.weights.noise;
   const auto count_with = [&](double InputErrors::*error) {
-    return static_cast<int>(
-        std::count_if(data.points.begin(), data.points.end(),
-                      [&](const Observation& point) { return point.*error > 0.0; }));
+    return static_cast<int>(std::ranges::count_if(
+        data.points, [&](const Observation& point) { return point.*error > 0.0; }));
   };
   FitFile::Noise out;
   out.variance = noise.variance;

@@ -40,30 +40,6 @@ CoverageFile::Row row_of(const CoverageRow& row) {
   return out;
 }
 
-}  // namespace
-
-std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
-                          const CoverageOptions& options, const std::vector<Dataset>& datasets) {
-  const UncertaintyOptions& uncertainty = options.uncertainty;
-  CoverageFile out = {
-      .recoil_version = version(),
-      .fit = {.id = spec.id, .sha256 = spec.sha256},
-      .simulated = result.datasets,
-      .truth = result.truth_origin,
-      .level = uncertainty.level,
-      .replicates = uncertainty.replicates_auto ? Json("auto") : Json(uncertainty.replicates),
-      .seed = uncertainty.seed,
-      .failed = result.failed,
-      .refits_failed = result.refits_failed};
-  for (const Dataset& dataset : datasets) {
-    out.datasets.push_back({dataset.id, dataset.provenance, dataset.sha256});
-  }
-  for (const CoverageRow& row : result.rows) out.rows.push_back(row_of(row));
-  return text_of(out);
-}
-
-namespace {
-
 SimulationFile::Energy energy_of(const SimulatedImpact& s) {
   const EnergyBudget& energy = s.impact.energy;
   const double unit = s.scales.energy;
@@ -106,6 +82,26 @@ SimulationFile::WholeImpact whole_of(const ImpactModel& model, const WholeImpact
 }
 
 }  // namespace
+
+std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
+                          const CoverageOptions& options, const std::vector<Dataset>& datasets) {
+  const UncertaintyOptions& uncertainty = options.uncertainty;
+  CoverageFile out = {
+      .recoil_version = version(),
+      .fit = {.id = spec.id, .sha256 = spec.sha256},
+      .simulated = result.datasets,
+      .truth = result.truth_origin,
+      .level = uncertainty.level,
+      .replicates = uncertainty.replicates_auto ? Json("auto") : Json(uncertainty.replicates),
+      .seed = uncertainty.seed,
+      .failed = result.failed,
+      .refits_failed = result.refits_failed};
+  for (const Dataset& dataset : datasets) {
+    out.datasets.push_back({dataset.id, dataset.provenance, dataset.sha256});
+  }
+  for (const CoverageRow& row : result.rows) out.rows.push_back(row_of(row));
+  return text_of(out);
+}
 
 DatasetReference dataset_reference(const Dataset& dataset) {
   return {dataset.id, dataset.provenance, provenance_sentence(dataset.provenance), dataset.sha256};

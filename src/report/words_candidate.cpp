@@ -24,19 +24,18 @@ const SetAsideReason& reason_of(SetAside why) {
       {chance, "gains no more than chance", ""},
       {not_possible, "not possible", ""},
       {batch_is_size, "may be an effect of size",
-       "every series has its own diameter and the offsets vary smoothly with it, so batch "
-       "offsets and an unknown effect of size look alike"},
+       "every series has its own diameter and the offsets vary smoothly with it, so batch offsets "
+       "and an unknown effect of size look alike"},
       {within_a_step, "may be rounding",
-       "the heights were rounded to a step, and rounding looks like an error of up to half "
-       "a step"},
+       "the heights were rounded to a step, and rounding looks like an error of up to half a step"},
       {leaves_structure, "leaves structure (p = {:.2g})",
        "structure remains in the residuals (p = {:.2g})"},
       {predicts_no_better, "predicts no better",
        "it predicts held-out sizes or targets no better than the base model"},
       {one_suffices, "one is enough", "one of the two explains the misfit as well alone"},
       {second_adds_little, "one contributes too little",
-       "structure remains in the residuals (p = {:.2g}), and one of the two explains no more "
-       "of the misfit than an error in the law of the other could"},
+       "structure remains in the residuals (p = {:.2g}), and one of the two explains no more of "
+       "the misfit than an error in the law of the other could"},
       {at_limit, "parameter at its limit", "a parameter lies at the limit of what is possible"},
       {far_behind, "far behind", "it fits far worse than the best two"}};
   return phrase_for(reasons, why);

@@ -89,7 +89,7 @@ std::string headline_of(const NotSeparable& d) {
   }
   std::vector<std::string> doubtful = d.rivals;
   std::erase_if(doubtful, [&](const std::string& id) {
-    return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
+    return std::ranges::find(d.common, id) != d.common.end();
   });
   if (!d.common.empty() && !doubtful.empty()) {
     return fmt::format("Cause of the misfit: {}, together with {}", cause_words(d.common),

@@ -28,7 +28,7 @@ const double steps_of_sd = std::sqrt(12.0);  // rounding step over its standard 
 /// are listed; many values are summarised by their range.
 std::string parameters_words(const CandidateResult& candidate) {
   std::vector<FoundParameter> all = candidate.parameters;
-  if (std::all_of(all.begin(), all.end(), [](const FoundParameter& p) { return p.sd == 0.0; })) {
+  if (std::ranges::all_of(all, [](const FoundParameter& p) { return p.sd == 0.0; })) {
     std::erase_if(all, [](const FoundParameter& p) { return !p.stated_by; });
     if (!all.empty()) {
       return joined(all, "; ", [](const FoundParameter& p) {
@@ -40,13 +40,12 @@ std::string parameters_words(const CandidateResult& candidate) {
   }
   std::erase_if(all, [&](const FoundParameter& p) {
     const auto& slots = candidate.candidate.model.slots;
-    return std::any_of(slots.begin(), slots.end(), [&](const ParameterSlot& slot) {
-      return slot.label() == p.label && !slot.free;
-    });
+    return std::ranges::any_of(
+        slots, [&](const ParameterSlot& slot) { return slot.label() == p.label && !slot.free; });
   });
   if (all.size() > most_values) {
-    const auto [low, high] = std::minmax_element(
-        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+    const auto [low, high] = std::ranges::minmax_element(
+        all, [](const auto& a, const auto& b) { return a.value < b.value; });
     return fmt::format("{} values from {} = {:.3g} to {} = {:.3g}", all.size(), low->label,
                        low->value, high->label, high->value);
   }
@@ -100,10 +99,9 @@ std::string gain_words(const Diagnosis& d) {
 
 /// The candidate that adds only this mechanism; null if it was not tried.
 const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
-  const auto found =
-      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const CandidateResult& c) {
-        return c.candidate.added.size() == 1 && c.candidate.added.front() == id;
-      });
+  const auto found = std::ranges::find_if(d.candidates, [&](const CandidateResult& c) {
+    return c.candidate.added.size() == 1 && c.candidate.added.front() == id;
+  });
   return found == d.candidates.end() ? nullptr : &*found;
 }
 
@@ -220,12 +218,11 @@ std::string untested_words(const Diagnosis& d) {
   for (const Observation& point : d.base.data.points) {
     places.insert({point.velocity, point.diameter});
   }
-  return places.size() == 1
-             ? "One velocity: the dependence of e on V is unknown."
-             : fmt::format(
-                   "{} pairs of velocity and size determine {} free parameters and cannot also "
-                   "test the curve.",
-                   places.size(), evidence_for(d).free);
+  return places.size() == 1 ? "One velocity: the dependence of e on V is unknown."
+                            : fmt::format(
+                                  "{} pairs of velocity and size determine {} free parameters and "
+                                  "cannot also test the curve.",
+                                  places.size(), evidence_for(d).free);
 }
 
 /// The misfit, or that there is none.
@@ -387,10 +384,10 @@ std::vector<std::string> rates_words(const Diagnosis& d) {
                             : fmt::format("has {:.2g} of the effect found", one.strength),
         share(one.listed, one.datasets), share(one.wrong, one.datasets), one.datasets));
   }
-  words.push_back(fmt::format(
-      "Where nothing acts beside the model it would have seen something in {} of cases ({} "
-      "simulated data sets).",
-      share(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
+  words.push_back(
+      fmt::format("Where nothing acts beside the model it would have seen something in {} of cases "
+                  "({} simulated data sets).",
+                  share(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
   return words;
 }
 
@@ -427,7 +424,7 @@ std::vector<std::string> impossible_words(const Diagnosis& d) {
     const bool in_answer = !resembles.empty() && resembles.front() == c.candidate.name();
     if (in_answer || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
-    const bool listed = std::find(rivals.begin(), rivals.end(), c.candidate.name()) != rivals.end();
+    const bool listed = std::ranges::find(rivals, c.candidate.name()) != rivals.end();
     words.push_back(
         plain_text(as_sentence(listed ? say("{} is listed though hardly plausible ({})",
                                             words_of(c.candidate.name()), set_aside_words(c))
@@ -447,9 +444,8 @@ std::string verdict_words(const AnswerForAll& answer) {
 
 /// The causes that a stated method of velocity measurement would exclude.
 std::string method_words(const Diagnosis& d) {
-  const bool unknown =
-      std::any_of(d.datasets.begin(), d.datasets.end(),
-                  [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
+  const bool unknown = std::ranges::any_of(
+      d.datasets, [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
   std::vector<std::string> words;
   for (const std::string& id : d.causes()) {
     const Mechanism* const mechanism = find_mechanism(id);

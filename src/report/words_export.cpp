@@ -70,11 +70,10 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   const ExportedImpact& impact = job.impact;
   const bool stock_asked = impact.force_is_all && target != ExportTarget::liggghts;
   if (job.form == ExportForm::force) {
-    out.push_back(
-        fmt::format("The force law is the model's own: e differs only by the error of the "
-                    "time step of {:.2g} ns, which is below 1e-4 from 5 % above capture on "
-                    "and proportional to the step.",
-                    time_step(impact) / units::ns));
+    out.push_back(fmt::format(
+        "The force law is the model's own: e differs only by the error of the time step of {:.2g} "
+        "ns, which is below 1e-4 from 5 % above capture on and proportional to the step.",
+        time_step(impact) / units::ns));
     out.push_back(
         impact.captures
             ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
@@ -148,20 +147,19 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
                                  source.mean_restitution));
   }
   if (job.form != ExportForm::lookup) {
-    wrap_into(lines,
-              fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: {}, "
-                          "its damping acts in phase \"{}\".",
-                          2.0 * job.force.radius / units::um, job.force.density,
-                          job.force.stiffness / units::GPa, to_string(job.force.adhesion),
-                          to_string(job.force.phase)));
+    wrap_into(lines, fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: "
+                                 "{}, its damping acts in phase \"{}\".",
+                                 2.0 * job.force.radius / units::um, job.force.density,
+                                 job.force.stiffness / units::GPa, to_string(job.force.adhesion),
+                                 to_string(job.force.phase)));
   }
   if (job.impact.surface_diameter > 0.0) {
-    wrap_into(lines,
-              fmt::format("Both bodies are spheres, of {:.6g} um and {:.6g} um. e is that of their "
-                          "relative velocity; a force law is that of one sphere on a flat that has "
-                          "their R* and m*.",
-                          job.impact.request.diameter / units::um,
-                          job.impact.surface_diameter / units::um));
+    wrap_into(
+        lines,
+        fmt::format(
+            "Both bodies are spheres, of {:.6g} um and {:.6g} um. e is that of their relative "
+            "velocity; a force law is that of one sphere on a flat that has their R* and m*.",
+            job.impact.request.diameter / units::um, job.impact.surface_diameter / units::um));
   }
   for (const std::string& sentence : export_losses(target, job)) wrap_into(lines, sentence);
   return lines;

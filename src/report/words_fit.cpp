@@ -118,7 +118,7 @@ std::string setting_words(const FitResult& fitted) {
 /// Appends the sentences that the list does not contain yet.
 void add_new(Sentences& list, const Sentences& more) {
   for (const Sentence& item : more) {
-    if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+    if (std::ranges::find(list, item) == list.end()) list.push_back(item);
   }
 }
 
@@ -141,18 +141,16 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
   }
   std::erase_if(squares, [](const Residuals& r) { return !(r.count > 2.0) || !(r.square > 0.0); });
   if (squares.size() < 2) return {};
-  const auto [least, most] =
-      std::minmax_element(squares.begin(), squares.end(),
-                          [](const auto& a, const auto& b) { return a.mean() < b.mean(); });
+  const auto [least, most] = std::ranges::minmax_element(
+      squares, [](const auto& a, const auto& b) { return a.mean() < b.mean(); });
   constexpr double level = 0.01;
   const double ratio = most->mean() / least->mean();
   const double pairs = static_cast<double>(datasets * (datasets - 1));
   if (!(gsl_cdf_fdist_Q(ratio, most->count, least->count) * pairs < level)) return {};
-  return {
-      fmt::format("the residuals of one dataset are {:.1f} times those of another, while one scale "
-                  "of the noise "
-                  "is estimated for all: the intervals may be too narrow; state restitution_sd",
-                  std::sqrt(ratio))};
+  return {fmt::format(
+      "the residuals of one dataset are {:.1f} times those of another, while one scale of the "
+      "noise is estimated for all: the intervals may be too narrow; state restitution_sd",
+      std::sqrt(ratio))};
 }
 
 /// Warnings about errors shared by the points of a setting that the points cannot determine.
@@ -174,11 +172,10 @@ Sentences setting_warnings(const FitResult& fitted) {
         "state setting_velocity_sd"};
   }
   const int settings = count_settings(data).settings;
-  return {
-      fmt::format("the points of one setting may share an error, such as that of a drop height; {} "
-                  "cannot determine it, and the intervals do not include it: state "
-                  "setting_velocity_sd or setting_sd",
-                  counted(settings, "setting"))};
+  return {fmt::format(
+      "the points of one setting may share an error, such as that of a drop height; {} cannot "
+      "determine it, and the intervals do not include it: state setting_velocity_sd or setting_sd",
+      counted(settings, "setting"))};
 }
 
 /// A standard deviation from n impacts has a relative error of 1 / sqrt(2 (n - 1)), which is about
@@ -188,20 +185,19 @@ constexpr int few_impacts = 15;
 /// Warnings about missing, imprecise and ignored standard deviations.
 Sentences data_warnings(const Observations& data) {
   if (data.noise.sd_stated && data.noise.sd_missing > 0) {
-    return {
-        counted(data.noise.sd_missing, "point states", "points state") +
-        " no restitution_sd; single impacts are assumed to scatter there like the median of the "
-        "others"};
+    return {counted(data.noise.sd_missing, "point states", "points state") +
+            " no restitution_sd; single impacts are assumed to scatter there like the median of "
+            "the others"};
   }
-  const auto few = std::count_if(data.points.begin(), data.points.end(), [](const auto& point) {
+  const auto few = std::ranges::count_if(data.points, [](const auto& point) {
     return point.rebounds() > 1 && point.rebounds() < few_impacts;
   });
   if (data.noise.sd_stated && few > 0) {
-    return {fmt::format(
-        "{} fewer than {} impacts: if their restitution_sd were computed from these "
-        "alone, the intervals are too narrow; pool the deviations of all points, or let the fit "
-        "estimate them ([noise] variance = \"constant\")",
-        counted(few, "point averages", "points average"), few_impacts)};
+    return {
+        fmt::format("{} fewer than {} impacts: if their restitution_sd were computed from these "
+                    "alone, the intervals are too narrow; pool the deviations of all points, or "
+                    "let the fit estimate them ([noise] variance = \"constant\")",
+                    counted(few, "point averages", "points average"), few_impacts)};
   }
   if (data.noise.sd_stated || data.noise.sd_set_aside == 0) return {};
   return {fmt::format(
@@ -212,11 +208,11 @@ Sentences data_warnings(const Observations& data) {
 /// Warnings about parameters that the fit does not determine.
 Sentences undetermined_warnings(const FitResult& fitted) {
   if (!fitted.flat.empty()) {
-    return {say(
-        "the points do not depend on {} at the estimate: change its initial value, or fix it (free "
-        "= false)",
-        joined(fitted.flat, ", ",
-               [&](std::size_t j) { return symbol(fitted.model.slots[j].label()); }))};
+    return {
+        say("the points do not depend on {} at the estimate: change its initial value, or fix it "
+            "(free = false)",
+            joined(fitted.flat, ", ",
+                   [&](std::size_t j) { return symbol(fitted.model.slots[j].label()); }))};
   }
   if (!fitted.weights.noise.known) {
     return {Sentence("the noise is " + unknown_noise_words(fitted) +
@@ -233,8 +229,8 @@ Sentences bound_warnings(const FitResult& fitted) {
     const ParameterSlot& slot = fitted.model.slots[j];
     const bool low = fitted.theta[j] <= 0.5 * (slot.lower + slot.upper);
     warnings.push_back(
-        say("{} is at its {} bound {:.4g}{}: it has no standard error, and the "
-            "errors of the other parameters are conditional on it",
+        say("{} is at its {} bound {:.4g}{}: it has no standard error, and the errors of the other "
+            "parameters are conditional on it",
             symbol(slot.label()), low ? "lower" : "upper", low ? slot.lower : slot.upper,
             unit_after_number(slot.parameter->unit)));
   }
@@ -245,19 +241,19 @@ Sentences weight_warnings(const FitResult& fitted) {
   Sentences warnings;
   if (!fitted.weights_at_rest) warnings.emplace_back("reweighting did not converge");
   if (fitted.strained_points > 0) {
-    warnings.push_back(fmt::format(
-        "at {} near capture the errors of velocity or diameter are too large for their first-order "
-        "treatment (bias above {:.1g} standard deviations)",
-        counted(fitted.strained_points, "point"), strained_bias));
+    warnings.push_back(
+        fmt::format("at {} near capture the errors of velocity or diameter are too large for their "
+                    "first-order treatment (bias above {:.1g} standard deviations)",
+                    counted(fitted.strained_points, "point"), strained_bias));
   }
   if (fitted.unused_counts) {
     const Mechanism* const mechanism = fitted.unused_counts->mechanism;
-    warnings.push_back(fmt::format(
-        "captured counts at {} with rebounds are not used, because {} already describe{} how "
-        "impacts differ",
-        counted(fitted.unused_counts->points, "point"),
-        mechanism == nullptr ? "the stated sizes" : std::string(mechanism->info.id),
-        mechanism == nullptr ? "" : "s"));
+    warnings.push_back(
+        fmt::format("captured counts at {} with rebounds are not used, because {} already "
+                    "describe{} how impacts differ",
+                    counted(fitted.unused_counts->points, "point"),
+                    mechanism == nullptr ? "the stated sizes" : std::string(mechanism->info.id),
+                    mechanism == nullptr ? "" : "s"));
   }
   return warnings;
 }
@@ -265,9 +261,8 @@ Sentences weight_warnings(const FitResult& fitted) {
 Sentences mechanism_warnings(const ImpactModel& model) {
   Sentences warnings;
   for (const Mechanism* mechanism : model.chain) {
-    const auto idle =
-        std::count_if(model.surroundings.begin(), model.surroundings.end(),
-                      [&](const Surroundings& at) { return !mechanism->acts_at(at); });
+    const auto idle = std::ranges::count_if(
+        model.surroundings, [&](const Surroundings& at) { return !mechanism->acts_at(at); });
     if (idle == 0) continue;
     warnings.push_back(
         fmt::format("{} has no effect in {} of {} datasets, whose work of adhesion is 0",
@@ -283,12 +278,12 @@ Sentences start_warnings(const FitResult& fitted) {
     for (const StartSummary& start : fitted.starts) {
       const auto& differing = start.differing;
       if (start.outcome == StartOutcome::best ||
-          std::find(differing.begin(), differing.end(), j) != differing.end()) {
+          std::ranges::find(differing, j) != differing.end()) {
         ends.push_back(start.end[j]);
       }
     }
     if (ends.size() < 2) continue;
-    const auto [least, most] = std::minmax_element(ends.begin(), ends.end());
+    const auto [least, most] = std::ranges::minmax_element(ends);
     warnings.push_back(
         say("starts reach the same chi2 at other parameters: {} from {:.4g} to {:.4g}",
             symbol(fitted.model.slots[j].label()), *least, *most));
@@ -298,9 +293,7 @@ Sentences start_warnings(const FitResult& fitted) {
       warnings.push_back(fmt::format("{} of {} starts {}", count, fitted.starts.size(), problem));
     }
   };
-  const auto count = [&](const auto& holds) {
-    return std::count_if(fitted.starts.begin(), fitted.starts.end(), holds);
-  };
+  const auto count = [&](const auto& holds) { return std::ranges::count_if(fitted.starts, holds); };
   const auto unfinished = count([](const auto& s) { return s.ending == DescentEnd::limit; });
   add(unfinished, "reached the iteration limit");
   add(count([](const auto& s) { return s.outcome == StartOutcome::not_converged; }) - unfinished,
@@ -334,9 +327,7 @@ Sentence quality_words(const FitResult& f) {
   }
   if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
   const std::string p = p_words(f.p_value);
-  if (f.p_value > 0.99) {
-    return say("The model fits; the points scatter less than stated ({}).", p);
-  }
+  if (f.p_value > 0.99) return say("The model fits; the points scatter less than stated ({}).", p);
   if (f.p_value >= 0.05) return say("The model fits ({}).", p);
   if (f.p_value >= 0.01) return say("The model barely fits ({}).", p);
   if (f.noise_verdict == NoiseVerdict::exceeded) {
@@ -442,9 +433,7 @@ std::vector<Sentence> fit_warnings(const FitResult& fitted) {
   if (fitted.usable) {
     add_new(warnings, undetermined_warnings(fitted));
     add_new(warnings, bound_warnings(fitted));
-    if (fitted.noise_verdict == NoiseVerdict::exceeded) {
-      warnings.push_back(noise_warning(fitted));
-    }
+    if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(noise_warning(fitted));
     add_new(warnings, start_warnings(fitted));
   }
   add_new(warnings, weight_warnings(fitted));

@@ -389,8 +389,8 @@ Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult&
   if (!found.assessed()) return {};
   Sentences sentences = parameter_sentences(fitted, uncertainty);
   if (sentences.empty()) {
-    const bool any_free = std::any_of(fitted.model.slots.begin(), fitted.model.slots.end(),
-                                      [](const ParameterSlot& slot) { return slot.free; });
+    const bool any_free = std::ranges::any_of(fitted.model.slots,
+                                              [](const ParameterSlot& slot) { return slot.free; });
     sentences.emplace_back(any_free ? "every free parameter is well determined"
                                     : "no parameter is free");
   }
@@ -419,7 +419,7 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
   Sentences all_sizes;
   std::vector<std::pair<Sentence, Sentences>> remarks;  // every remark with its sizes
   const auto add_once = [](const Sentence& size, Sentences& sizes) {
-    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+    if (std::ranges::find(sizes, size) == sizes.end()) sizes.push_back(size);
   };
   for (const CaptureEstimate& capture : uncertainty.capture) {
     const Sentence size = diameter_sentence(capture.diameter);
@@ -428,8 +428,8 @@ std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
     const Sentence words = capture.found
                                ? note_words(capture.interval, "the capture velocity")
                                : "no capture velocity: " + missing_words(capture.interval);
-    auto same = std::find_if(remarks.begin(), remarks.end(),
-                             [&](const auto& remark) { return remark.first == words; });
+    auto same =
+        std::ranges::find_if(remarks, [&](const auto& remark) { return remark.first == words; });
     if (same == remarks.end()) same = remarks.insert(same, {words, {}});
     add_once(size, same->second);
   }
@@ -472,10 +472,10 @@ Sentence leave_one_out_words(const Analysis& a) {
   const std::string why = no_leave_one_out_words(*found);
   if (!why.empty()) return say("Leaving out one point at a time: not possible, as {}.", why);
   const LeaveOneOut& loo = found->left_out;
-  Sentence words = say(
-      "Leaving out one point at a time (PSIS-LOO): expected log predictive density {:.1f} {+/-} "
-      "{:.1f}, {:.1f} effective parameters. ",
-      loo.elpd, loo.se, loo.p_loo);
+  Sentence words =
+      say("Leaving out one point at a time (PSIS-LOO): expected log predictive density {:.1f} "
+          "{+/-} {:.1f}, {:.1f} effective parameters. ",
+          loo.elpd, loo.se, loo.p_loo);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < loo.points.size(); ++i) {
     if (!(loo.points[i].pareto_k > largest_pareto_k)) continue;
@@ -485,11 +485,10 @@ Sentence leave_one_out_words(const Analysis& a) {
                                 loo.points[i].pareto_k));
   }
   if (names.empty()) return words + say("No point has a Pareto k above {:g}.", largest_pareto_k);
-  return words +
-         say("For {} this estimate is not reliable (Pareto k above {:g}): the posterior depends "
-             "strongly on {}.",
-             fmt::to_string(fmt::join(names, ", ")), largest_pareto_k,
-             std::string(names.size() == 1 ? "this point" : "each of these points"));
+  return words + say("For {} this estimate is not reliable (Pareto k above {:g}): the posterior "
+                     "depends strongly on {}.",
+                     fmt::to_string(fmt::join(names, ", ")), largest_pareto_k,
+                     std::string(names.size() == 1 ? "this point" : "each of these points"));
 }
 
 Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {
@@ -513,8 +512,8 @@ std::vector<Sentence> budget_sentences(const Analysis& a) {
     const std::string source = first.constant
                                    ? "the " + constant_words(model, *first.constant, a.datasets)
                                    : source_words(first, model);
-    auto found = std::find_if(by_source.begin(), by_source.end(),
-                              [&](const auto& one) { return one.first == source; });
+    auto found =
+        std::ranges::find_if(by_source, [&](const auto& one) { return one.first == source; });
     if (found == by_source.end()) found = by_source.insert(found, {source, {}});
     found->second.push_back(say("{} ({:.0f} %)", quantity, 100.0 * first.share));
   };

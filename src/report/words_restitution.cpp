@@ -20,10 +20,9 @@ std::string series_words(const RestitutionMean& mean, const RestitutionSummary& 
                          const std::vector<Dataset>& datasets) {
   const Dataset& dataset = datasets[mean.dataset];
   std::string name = dataset.series[mean.series];
-  const auto same =
-      std::count_if(summary.means.begin(), summary.means.end(), [&](const RestitutionMean& other) {
-        return !other.velocity && other.dataset == mean.dataset && other.series == mean.series;
-      });
+  const auto same = std::ranges::count_if(summary.means, [&](const RestitutionMean& other) {
+    return !other.velocity && other.dataset == mean.dataset && other.series == mean.series;
+  });
   if (same > 1) name += " " + diameter_words(mean.diameter);
   return datasets.size() > 1 ? fmt::format("{} of {}", name, dataset.id) : name;
 }
