@@ -47,6 +47,7 @@ std::string commands_table(const Program& program, const std::vector<std::string
     std::string arguments;
     std::string rows;
     for (const OptionRow* option : options_of(command.name)) {
+      if (option->is_hidden()) continue;
       if (option->is_argument()) {
         arguments += option->is_required()
                          ? fmt::format(" {}", option->name)

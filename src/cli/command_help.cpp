@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cli/commands.hpp"
 
 namespace recoil {
@@ -8,8 +10,13 @@ void add_help(Program& program) {
   recoil help fit)",
                   [&program](const GivenOptions& given) {
                     std::vector<std::string> words = given.texts("COMMAND");
-                    words.emplace_back("--help");
-                    program.run(words);
+                    const auto commands = program.commands();
+                    const bool known =
+                        words.empty() ||
+                        std::ranges::find(commands, words.front(), &Program::CommandText::name) !=
+                            commands.end();
+                    if (known) words.emplace_back("--help");
+                    program.run(words);  // says what is wrong with an unknown command
                   });
 }
 

@@ -78,6 +78,7 @@ void add(CLI::App& app, const OptionRow& row, std::vector<std::string>& values) 
   std::erase(value, '`');
   option->type_name(value);
   option->required(row.is_required());
+  if (row.is_hidden()) option->group("");
   if (type.commas) option->delimiter(',');
   const bool repeats = type.most > 1 && !type.commas && !row.is_argument();
   if (type.most == 1 || repeats) option->allow_extra_args(false);

@@ -105,7 +105,7 @@ std::vector<std::string> GivenOptions::words(const std::vector<std::string_view>
   std::vector<std::string> words = {command_};
   for (const OptionRow* row : options_of(command_)) {
     const auto found = values_.find(row->name);
-    if (found == values_.end()) continue;
+    if (found == values_.end() || row->is_hidden()) continue;
     if (std::ranges::find(left_out, row->name) != left_out.end()) continue;
     std::vector<std::string> values = found->second;
     if (row->type.commas) values = {fmt::format("{}", fmt::join(values, ","))};

@@ -18,13 +18,14 @@ struct OptionRow {
   std::string_view commands;  ///< "fit report"
   std::string_view name;      ///< "--size-edges", or "FIT" for an argument
   OptionType type;
-  std::string_view meaning;
+  std::string_view meaning;         ///< empty: not in help and manual
   std::string_view standard = "";   ///< the default; empty: none
   std::string_view functions = "";  ///< the functions of Python that take it: "fit coverage"
   std::string_view python = "";     ///< its name there
 
   bool is_argument() const { return !name.starts_with('-'); }
   bool is_required() const { return standard == required; }
+  bool is_hidden() const { return meaning.empty(); }
   /// The default; empty if there is none.
   std::string_view default_text() const { return is_required() ? "" : standard; }
 };
