@@ -44,8 +44,8 @@ void drop_signs(const ImportTable& table, ImportedPoints& out) {
 
 /// Converts standard deviations of single impacts to those of means.
 /// @throws InputError if it is not known which of the two they are
-void settle_deviations(const ImportRequest& request, const ImportTable& table,
-                       std::vector<ImportedPoint>& points) {
+void resolve_deviations(const ImportRequest& request, const ImportTable& table,
+                        std::vector<ImportedPoint>& points) {
   for (const Quantity quantity : {Quantity::restitution_sd, Quantity::velocity_sd}) {
     const bool of_means = request.sd_of.empty() && table.is_named(to_string(quantity));
     if (of_means || request.sd_of == "mean") continue;
@@ -114,7 +114,7 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
   }
   out.notes = table.notes();
   drop_signs(table, out);
-  settle_deviations(request, table, out.points);
+  resolve_deviations(request, table, out.points);
   const std::vector<std::string> unused = table.unused();
   if (!unused.empty()) out.notes.push_back({ImportRemark::columns_not_used, unused});
   return out;
@@ -251,7 +251,7 @@ ImportResult import_points(const ImportRequest& asked) {
   ImportResult result;
   Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported = read_points_of(request, system, units);
-  settle_diameters(request, imported);
+  resolve_diameters(request, imported);
   add_scatter(request, imported.points);
 
   notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());

@@ -296,7 +296,7 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
   return stated ? stated : diameter_in_name(series);
 }
 
-void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
+void resolve_diameters(const ImportRequest& request, ImportedPoints& imported) {
   const StatedError error =
       stated_error(request.diameter_error, Dimension::length, "um", "--diameter-error");
   bool for_all = false;
@@ -410,7 +410,7 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQ
         fmt::format("name it with --map {}=COLUMN{}", quantity.name,
                     quantity.dimension == Dimension::text ? "" : ":UNIT"));
   }
-  settle_replicates();
+  resolve_replicates();
   if (rows_.empty()) {
     throw InputError({file_, header_.front().line, 1}, "there is a header but no row below it", "",
                      "export the points again");
@@ -461,7 +461,7 @@ void ImportTable::find_columns_by_name() {
 }
 
 /// Checks that all quantities with several columns have the same number of columns.
-void ImportTable::settle_replicates() {
+void ImportTable::resolve_replicates() {
   for (const ImportQuantity& quantity : known_) {
     const auto found = columns_.find(quantity.name);
     if (quantity.dimension == Dimension::text || found == columns_.end()) continue;

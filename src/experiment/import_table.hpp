@@ -76,7 +76,7 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 
 /// Sets the diameter of every point and its error.
 /// @throws InputError for a point without a diameter, and for a --diameter of no series
-void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
+void resolve_diameters(const ImportRequest& request, ImportedPoints& imported);
 
 NumberFormat number_format(const ImportRequest& request);
 
@@ -159,7 +159,7 @@ class ImportTable {
   void read_header();
   void read_map(const std::string& entry);
   void find_columns_by_name();
-  void settle_replicates();
+  void resolve_replicates();
   std::vector<std::string> header_names() const;
   std::size_t column_named(const std::string& name) const;
   Scale scale_of(const ImportQuantity& quantity, const std::string& unit, std::size_t column) const;
