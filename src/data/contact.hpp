@@ -26,7 +26,8 @@ T reduced_mass(const T& mass, double second_mass) {
 /// are those of Li, Dunn & Brach (1999), J. Aerosol Sci. 30, 439-449.
 ///
 /// A value that the dataset states is used instead of the derived one. The derived one is kept,
-/// too, and `contradictions` has a sentence for every disagreement.
+/// too, and `contradictions` has a sentence for every disagreement. One member for each quantity of
+/// these equations.
 struct ContactProperties {
   double k_particle = 0.0;               ///< eq. 7: k = (1 - nu^2) / (pi E) [1/Pa]
   double k_surface = 0.0;                ///< eq. 7 [1/Pa]

@@ -85,7 +85,8 @@ struct Column {
 /// overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2], `adhesion_force_f0` [N/m] and
 /// `reference_diameter` [m] (needed with the force), and `mixed_sizes`, the path of a size
 /// distribution over which every point averages. Unknown keys are refused in this object. Elsewhere
-/// they are allowed, as in Frictionless, unless they change the meaning of cells.
+/// they are allowed, as in Frictionless, unless they change the meaning of cells. One member for
+/// each key.
 struct Package {
   std::string id;
   std::string title;

@@ -17,7 +17,7 @@ inline constexpr const char* recipe_name = "recipe.toml";
 inline constexpr const char* set_aside_recipe_name = "recipe-set-aside.toml";
 
 /// One measured point: the mean restitution of `events` impacts at one velocity and diameter, or a
-/// point at which the spheres were captured.
+/// point at which the spheres were captured. One member for each column of the points.
 struct ImpactPoint {
   std::size_t series = 0;          ///< index into Dataset::series
   double diameter = 0.0;           ///< [m]

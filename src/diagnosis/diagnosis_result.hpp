@@ -142,7 +142,7 @@ struct Unexplained {};
 using DiagnosisAnswer =
     std::variant<Adequate, CauseNamed, NotSeparable, Resembles, ErrorsTooSmall, Unexplained>;
 
-/// The result of `diagnose`.
+/// The result of `diagnose`: its inputs, its answer, and one member for each section of the page.
 struct Diagnosis {
   DiagnosisOptions options;
   FitSpec spec;

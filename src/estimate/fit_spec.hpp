@@ -89,7 +89,8 @@ struct UncertaintySpec {
   Materials materials = Materials::propagated;
 };
 
-/// A fit file, validated. Every key but `dataset` has its default here or in the catalogue.
+/// A fit file, validated: one member for each key. Every key but `dataset` has its default here or
+/// in the catalogue.
 struct FitSpec {
   std::string id;  ///< the file's name without its extension
   std::filesystem::path file;

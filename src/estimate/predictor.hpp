@@ -36,7 +36,8 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 /// theta are computed once; for few points, no memory is allocated after the first evaluation. Many
 /// points are simulated in blocks on all threads of the caller's arena; results do not depend on
 /// the number of threads. For few points, the results at the last theta are kept, and those at the
-/// first theta with gradients, because refits of samples start there.
+/// first theta with gradients, because refits of samples start there. Its many private members are
+/// this memory.
 class PointPredictor {
  public:
   /// Keeps a reference to `model`, which must outlive it and not change.

@@ -28,7 +28,7 @@ constexpr auto names_of_values(ImportFormat) {
 
 /// The file to import and the information that it lacks, as on the command line. Quantities are
 /// words such as "4.9um"; errors are "2%" (of the value) or "0.5mm". A number without a unit counts
-/// in um if it is a diameter, otherwise in the SI unit.
+/// in um if it is a diameter, otherwise in the SI unit. One member for each option of the command.
 struct ImportRequest {
   std::filesystem::path file;
   std::optional<std::string> text;  ///< the content to import instead of reading `file`

@@ -45,7 +45,7 @@ struct Unpaired {
   bool used = true;        ///< as for Impact
 };
 
-/// The impacts and their reliability.
+/// The impacts and their reliability: one member for each key of the result file.
 struct PairingResult {
   PairingOptions options;
   std::vector<Impact> impacts;     ///< all pairs, by series and time of the incident passage

@@ -14,7 +14,8 @@
 
 namespace recoil {
 
-/// Constants and conditions that all impacts of one dataset share.
+/// Constants and conditions that all impacts of one dataset share: one member for each that some
+/// mechanism asks for.
 struct Surroundings {
   double density = 0.0;             ///< of the sphere [kg/m3]
   double stiffness = 0.0;           ///< K [Pa]
@@ -60,7 +61,8 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
 ///
 /// On the way in, `velocity` is the velocity at the present place between measuring plane and
 /// contact. After the contact, `square` is v^2 on the way out. For a sphere that does not come back
-/// it is negative: minus twice the missing energy per mass.
+/// it is negative: minus twice the missing energy per mass. One member for each quantity that some
+/// mechanism reads or changes.
 template <class T>
 struct Encounter {
   const Surroundings* at = nullptr;

@@ -38,7 +38,8 @@ struct ExtendedAnswer {
 /// last one of the chain innermost. Finally the chain changes the average (`observe`).
 ///
 /// Derivatives are exact: those of the base impact come from the solver, those of the chain from
-/// dual numbers. No memory is allocated after the first evaluation with and without derivatives.
+/// dual numbers. No memory is allocated after the first evaluation with and without derivatives;
+/// its many private members are this memory.
 class ExtendedImpacts {
  public:
   /// @param materials also computes derivatives in the constants of the materials

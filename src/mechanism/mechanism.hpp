@@ -49,7 +49,8 @@ struct TakenAway {
   double (*least)(const Encounter<double>& sphere) = nullptr;
 };
 
-/// The description of a mechanism.
+/// The description of a mechanism: one member for each statement that its file may make. Most have
+/// a default.
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;

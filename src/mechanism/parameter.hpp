@@ -63,7 +63,7 @@ enum class ParameterRole {
 };
 
 /// A parameter of the base model or of a mechanism. Fit files and the slots of theta refer to this
-/// description.
+/// description. One member for each statement; most have a default.
 struct Parameter {
   std::string_view name;  ///< in fit files; unique
   std::string_view unit;

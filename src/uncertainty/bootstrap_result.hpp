@@ -26,7 +26,8 @@ struct FailedReplicates {
   std::vector<Suspect> suspects;  ///< the points with the largest differences, the largest first
 };
 
-/// The replicates of one bootstrap, in the order of their index.
+/// The replicates of one bootstrap, in the order of their index: one member for each number of a
+/// replicate, and for each count.
 struct BootstrapResult {
   Scheme scheme = Scheme::parametric;  ///< never automatic
   SchemeBecause because = SchemeBecause::asked_for;
