@@ -35,7 +35,7 @@ CoverageFile::Row row_of(const CoverageRow& row) {
     entry.where_identifiable =
         share_of<CoverageFile::Share>(cell.held_identifiable, cell.offered_identifiable);
     entry.median_width = cell.median_width;
-    out.intervals.emplace_back(cell.interval, std::move(entry));
+    out.intervals.emplace_back(cell.interval, entry);
   }
   return out;
 }
