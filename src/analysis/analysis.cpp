@@ -7,9 +7,10 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
+#include "estimate/law_average.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/resample.hpp"
 
@@ -112,7 +113,7 @@ void assess(Analysis& a, const UncertaintyOptions& options) {
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options) {
   const auto [level, threads] = std::pair(options.level, options.threads);
-  const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
+  const std::vector<FitAlternative> alternatives = fit_alternatives(fitted);
   UncertaintyResult result;
   result.options = options;
   result.intervals = likelihood_intervals(alternatives, level, threads);
@@ -130,7 +131,8 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
   if (options.posterior) {
-    result.posterior = sample_posterior(alternatives, result.capture, sampling_options(options));
+    result.posterior =
+        sample_posterior(noise_alternatives(fitted), result.capture, sampling_options(options));
   }
   result.odd_point = odd_point(fitted);
   result.budgets = parameter_budgets(fitted);
@@ -152,7 +154,7 @@ UncertaintyResult bootstrap_only(const FitResult& fitted, const std::vector<Data
                                  const UncertaintyOptions& options) {
   UncertaintyResult result;
   result.options = options;
-  result.capture = capture_estimates(noise_alternatives(fitted), options.level, datasets);
+  result.capture = capture_estimates(fit_alternatives(fitted), options.level, datasets);
   result.bootstrap = bootstrap(fitted, result.capture, options);
   return result;
 }
@@ -169,7 +171,7 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   model.solver.kind = options.solver;
   FitOptions fitting;
   fitting.threads = options.threads;
-  analysis.fitted = fit(model, std::move(gathered), fitting);
+  analysis.fitted = fit_as_stated(analysis.spec, model, std::move(gathered), fitting);
   if (!analysis.fitted.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
                                        analysis.spec.file.string(), analysis.fitted.failure));

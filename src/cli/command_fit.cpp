@@ -10,7 +10,7 @@
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 
 namespace recoil {
 namespace {
@@ -37,7 +37,7 @@ void run_fit(const GivenOptions& given) {
   if (shard.one_of_several()) {
     const Pieces replicates = bootstrap_pieces(
         analysis.fitted,
-        capture_estimates(noise_alternatives(analysis.fitted), assess.level, analysis.datasets),
+        capture_estimates(fit_alternatives(analysis.fitted), assess.level, analysis.datasets),
         assess);
     shard.run_share(replicates, *kept, origin);
     return;

@@ -12,9 +12,9 @@
 #include "coverage/coverage_truth.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
-#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/posterior.hpp"
 #include "uncertainty/resample.hpp"
@@ -93,13 +93,13 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
                                  const CoverageOptions& options, std::uint64_t index) {
   CoverageTrial trial;
   const std::vector<Dataset> datasets = truth.simulate(index);
-  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
+  const FitResult fitted = fit_as_stated(spec, make_model(spec, datasets), gather(datasets, spec));
   if (!fitted.usable) return trial;
   if (scheme_obstacle(options.uncertainty.scheme, fitted.data)) return trial;
   UncertaintyOptions own = options.uncertainty;
   own.seed = options.uncertainty.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
-  const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
+  const std::vector<FitAlternative> alternatives = fit_alternatives(fitted);
   std::vector<IntervalSet> sets = likelihood_intervals(alternatives, own.level, own.threads);
   std::vector<CaptureEstimate> captures = capture_estimates(alternatives, own.level, datasets);
   const BootstrapResult replicates = bootstrap(fitted, captures, own);
@@ -108,7 +108,8 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   const Identifiability identifiability =
       judge_identifiability(fitted, sets, captures, alternatives);
   PosteriorResult posterior;
-  if (own.posterior) posterior = sample_posterior(alternatives, captures, sampling_options(own));
+  if (own.posterior)
+    posterior = sample_posterior(noise_alternatives(fitted), captures, sampling_options(own));
   const CoverageTruth::At at =
       truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
   const Interval none = no_interval(NoInterval::not_assessed);

@@ -20,7 +20,7 @@
 #include "estimate/predictor.hpp"
 #include "mechanism/mechanism.hpp"
 #include "uncertainty/bootstrap.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
@@ -222,7 +222,7 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const SearchB
   options.seed = base.options.seed;
   options.threads = base.options.threads;
   std::vector<IntervalSet> intervals =
-      likelihood_intervals(noise_alternatives(fitted), options.level, options.threads);
+      likelihood_intervals(fit_alternatives(fitted), options.level, options.threads);
   add_resampled_intervals(fitted, bootstrap(fitted, {}, options), options.level, options.threads,
                           intervals);
   return intervals;

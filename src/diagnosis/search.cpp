@@ -99,7 +99,7 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
 }  // namespace
 
 FitSpec with_constants_adjusted(FitSpec spec) {
-  if (spec.uncertainty.materials == Materials::propagated) {
+  if (spec.uncertainty.materials != Materials::exact) {
     spec.uncertainty.materials = Materials::adjusted;
   }
   return spec;

@@ -227,6 +227,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     }
   }
   result.usable = true;
+  result.criterion = restricted_criterion(model, result.data, best, result.weights);
   take_over(result, best);
   result.chi2 = best.sum_of_squares;
   judge_noise(result, misfit_of(result, best));

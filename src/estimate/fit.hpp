@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,7 @@ struct FitQuality {
                            ///< 1, as the constants then have another weight
   int dof = 0;             ///< see Misfit
   double p_value = 0.0;    ///< of the misfit, in [0, 1]; meaningless if !sd_stated
+  double criterion = 0.0;  ///< `restricted_criterion`
   double rmse = 0.0;       ///< root mean square of e - e_model over all points with a known e [1]
   /// Deviations of the uncertain material constants from their stated values, in standard
   /// deviations [ImpactModel::constants].
@@ -103,11 +105,26 @@ struct FitQuality {
   std::optional<UnusedCounts> unused_counts;
 };
 
+struct FitResult;
+
+/// The fit under one assumption about the error of the laws.
+struct LawAlternative {
+  LawErrorPrior prior;  ///< size 0: the laws are exact
+  double weight = 0.0;  ///< its posterior probability; those of all add up to 1
+  /// Null: the weight is negligible, or it is the result that has this alternative.
+  std::shared_ptr<const FitResult> fitted;
+
+  /// Is `result` the fit under this assumption?
+  bool is_of(const FitResult& result) const;
+};
+
 /// The full least-squares fit.
 struct FitResult : FitEnd, FitAtPoints, FitErrors, FitQuality {
   ImpactModel model;
   Observations data;  ///< the points that were fitted
   Weights weights;    ///< theirs in this fit; refits, profiles and simulations start from them
+  /// What `fit_over_laws` compared; empty: the laws were taken as exact, or their error as known.
+  std::vector<LawAlternative> laws;
 };
 
 /// Fits the free parameters of `model` to all points at once from several starts, then once more

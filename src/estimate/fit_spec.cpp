@@ -80,10 +80,11 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "resampling scheme of the bootstrap"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
-      {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
-       "true: the stated errors of material constants widen every interval; \"adjust\": the "
-       "constants are fitted too, with their stated errors as priors; false: the constants are "
-       "exact"},
+      {"uncertainty", "materials", quoted("auto"),
+       "\"auto\": material constants are fitted too, with their stated errors as priors, and every "
+       "interval is averaged over how wrong the laws are; \"adjust\": the same with exact laws; "
+       "true: the fit uses the stated constants, and their errors widen every interval; false: "
+       "the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
        "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},
       {"uncertainty", "own_design", "",
@@ -525,13 +526,15 @@ class FitReader : private TomlReader {
       spec.own_design = static_cast<int>(count);
     }
     if (const toml::node* node = table.get("materials")) {
-      const bool adjusts = node->is_string() && node->as_string()->get() == "adjust";
-      if (node->is_string() && !adjusts) {
-        fail(*node, fmt::format("materials = {}", quote(node->as_string()->get())),
-             "it must be true, false or \"adjust\"",
-             "true widens the intervals by them, \"adjust\" lets the points move the constants");
+      const std::string word = node->is_string() ? node->as_string()->get() : "";
+      if (node->is_string() && word != "auto" && word != "adjust") {
+        fail(*node, fmt::format("materials = {}", quote(word)),
+             "it must be \"auto\", \"adjust\", true or false",
+             "\"auto\" and \"adjust\" let the points move the constants, true widens the "
+             "intervals by them");
       }
-      spec.materials = adjusts                       ? Materials::adjusted
+      spec.materials = word == "auto"                ? Materials::averaged
+                       : word == "adjust"            ? Materials::adjusted
                        : boolean(*node, "materials") ? Materials::propagated
                                                      : Materials::exact;
     }

@@ -71,6 +71,7 @@ enum class Materials {
   exact,       ///< errors are ignored
   propagated,  ///< the estimate uses the stated constants; their errors widen every interval
   adjusted,    ///< the fit moves the constants; each stated value is one more observation
+  averaged,    ///< adjusted, and averaged over the error of the laws (`fit_over_laws`)
 };
 
 /// The `[uncertainty]` table.
@@ -86,7 +87,7 @@ struct UncertaintySpec {
   /// Number of simulated data sets of `own_design_coverage`; 0: none. Empty: the number that
   /// `own_design_datasets` gives.
   std::optional<int> own_design;
-  Materials materials = Materials::propagated;
+  Materials materials = Materials::averaged;
 };
 
 /// A fit file, validated: one member for each key. Every key but `dataset` has its default here or

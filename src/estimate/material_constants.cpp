@@ -39,16 +39,15 @@ double logarithmic_sd(double value, double sd) {
 }
 
 double UncertainConstant::deviation(double value, double stated_value_of_it) const {
-  return is_positive(constant) ? std::log(value / stated_value_of_it) / sd
-                               : (value - stated_value_of_it) / sd;
+  return positive() ? std::log(value / stated_value_of_it) / sd : (value - stated_value_of_it) / sd;
 }
 
 double UncertainConstant::moved(double value, double by) const {
-  return is_positive(constant) ? value * std::exp(by * sd) : value + by * sd;
+  return positive() ? value * std::exp(by * sd) : value + by * sd;
 }
 
 double UncertainConstant::deviation_slope(double value) const {
-  return is_positive(constant) ? 1.0 / (value * sd) : 1.0 / sd;
+  return positive() ? 1.0 / (value * sd) : 1.0 / sd;
 }
 
 std::vector<UncertainConstant> uncertain_constants(const std::vector<Dataset>& datasets) {

@@ -11,16 +11,18 @@
 
 namespace recoil {
 
-/// A material constant with a stated error. It is a parameter of the fit, and its stated value is
-/// one more observation. Positive constants are lognormal: the stated value is the median, and the
-/// logarithm has the sd sqrt(ln(1 + (sd / value)^2)). Poisson's ratio is normal.
+/// A constant with a stated error: of the materials, or a coefficient of the error of the laws
+/// (`LawError`), whose stated value is 0 and whose sd is 1. It is a parameter of the fit, and its
+/// stated value is one more observation. Positive constants are lognormal: the stated value is the
+/// median, and the logarithm has the sd sqrt(ln(1 + (sd / value)^2)). The others are normal.
 struct UncertainConstant {
   Body body = Body::particle;
   Constant constant = Constant::density;
   double stated = 0.0;  ///< in its own unit
-  double sd = 0.0;      ///< sd of its logarithm, or of the constant itself for Poisson's ratio
+  double sd = 0.0;      ///< sd of its logarithm if it is positive, else of the constant itself
   /// Datasets that share it: the same body with the same stated value.
-  std::vector<std::size_t> datasets;
+  std::vector<std::size_t> datasets = {};
+  bool of_laws = false;  ///< a coefficient of the error of the laws, of no body
 
   /// (`value` - `stated_value`) in standard deviations.
   double deviation(double value, double stated_value) const;
@@ -28,6 +30,9 @@ struct UncertainConstant {
   double moved(double value, double by) const;
   /// d deviation / d value.
   double deviation_slope(double value) const;
+
+ private:
+  bool positive() const { return !of_laws && is_positive(constant); }
 };
 
 /// The materials of one dataset at given values of their constants, in SI units.

@@ -211,7 +211,7 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
 /// Are the materials of the dataset exact? (A model that was built without `make_model` has no
 /// constants.)
 bool is_exact(const ImpactModel& model, std::size_t dataset) {
-  return model.constants.empty() || model.materials[dataset].exact();
+  return model.material_count() == 0 || model.materials[dataset].exact();
 }
 
 /// Does `dataset` state its adhesion without an error? Then it does not depend on any uncertain
@@ -326,12 +326,14 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
         model.slot_own.push_back(add_own_slots(model, stated, datasets));
         break;
       case ParameterRole::material_constant:
+      case ParameterRole::law_error:
         break;  // not a parameter of a fit file
     }
   }
   fix_damping_of_nothing(model);
   if (spec.uncertainty.materials != Materials::exact) add_constants(model, datasets);
-  if (spec.uncertainty.materials == Materials::adjusted) {
+  if (spec.uncertainty.materials == Materials::adjusted ||
+      spec.uncertainty.materials == Materials::averaged) {
     model = with_adjusted_materials(std::move(model));
   }
   for (std::size_t d = 0; d < datasets.size(); ++d) {
@@ -419,6 +421,36 @@ ImpactModel with_adjusted_materials(ImpactModel model) {
 ImpactModel with_exact_materials(ImpactModel model) {
   model.slots.resize(model.first_constant());
   model.constants.clear();
+  model.law_error.reset();
+  return model;
+}
+
+ImpactModel with_law_error(ImpactModel model, const LawErrorPrior& prior,
+                           std::span<const PointConditions> points) {
+  static const Parameter coefficient = [] {
+    Parameter parameter;
+    parameter.name = "law_error";
+    parameter.unit = "1";
+    parameter.meaning = "coefficient of the error of the laws";
+    parameter.role = ParameterRole::law_error;
+    return parameter;
+  }();
+  model.law_error = std::make_shared<const LawError>(prior, points);
+  for (std::size_t k = 0; k < model.law_error->count(); ++k) {
+    model.constants.push_back({.stated = 0.0, .sd = 1.0, .of_laws = true});
+    model.slots.push_back({.parameter = &coefficient,
+                           .lower = -widest,
+                           .upper = widest,
+                           .free = false,
+                           .adjusted = true});
+  }
+  return model;
+}
+
+ImpactModel with_exact_laws(ImpactModel model) {
+  model.slots.resize(model.first_law_slot());
+  model.constants.resize(model.material_count());
+  model.law_error.reset();
   return model;
 }
 

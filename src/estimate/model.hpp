@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "data/contact.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
+#include "estimate/law_error.hpp"
 #include "estimate/material_constants.hpp"
 #include "estimate/observation.hpp"
 #include "impact/impact.hpp"
@@ -43,11 +45,14 @@ struct ParameterSlot {
   bool derived = false;  ///< its value comes from the materials; if it is not free, it changes with
                          ///< their constants
   std::optional<Condition> stated = {};  ///< the condition that states its value
-  /// A material constant that every fit moves within its error (Materials::adjusted).
+  /// A constant that every fit moves within its error.
   bool adjusted = false;
 
-  /// Is it a material constant with a stated error?
-  bool is_constant() const { return parameter->role == ParameterRole::material_constant; }
+  /// Is it one of ImpactModel::constants?
+  bool is_constant() const {
+    return parameter->role == ParameterRole::material_constant ||
+           parameter->role == ParameterRole::law_error;
+  }
   bool moves() const { return free || adjusted; }
   /// The mechanism of the parameter; null for the base model.
   const Mechanism* mechanism() const { return parameter->mechanism; }
@@ -75,9 +80,11 @@ struct ImpactModel {
   /// spheres without series.
   std::vector<std::vector<std::vector<std::size_t>>> slot_own;
 
-  /// The material constants with a stated error. They occupy the last slots, in this order.
+  /// The constants with a stated error: of the materials, then the coefficients of `law_error`.
+  /// They occupy the last slots, in this order.
   std::vector<UncertainConstant> constants;
-  std::vector<MaterialLaw> materials;  ///< per dataset
+  std::shared_ptr<const LawError> law_error;  ///< null: the laws are exact
+  std::vector<MaterialLaw> materials;         ///< per dataset
 
   /// Do fits move the constants (true), or keep their stated values?
   bool adjusts_constants() const { return !constants.empty() && slots.back().adjusted; }
@@ -87,6 +94,11 @@ struct ImpactModel {
   std::span<const double> constants_of(std::span<const double> theta) const {
     return theta.subspan(first_constant());
   }
+  /// The number of constants of the materials, which come first.
+  std::size_t material_count() const {
+    return constants.size() - (law_error ? law_error->count() : 0);
+  }
+  std::size_t first_law_slot() const { return first_constant() + material_count(); }
   std::vector<double> initial() const;
   int free_count() const;  ///< number of free slots, without the material constants
   /// The solver options for its impacts.
@@ -136,6 +148,13 @@ ImpactModel with_adjusted_materials(ImpactModel model);
 
 /// The model with all material constants exact, at their stated values.
 ImpactModel with_exact_materials(ImpactModel model);
+
+/// The model with an error of the laws. @pre it has none
+ImpactModel with_law_error(ImpactModel model, const LawErrorPrior& prior,
+                           std::span<const PointConditions> points);
+
+/// The model without an error of the laws.
+ImpactModel with_exact_laws(ImpactModel model);
 
 /// d f0 / d (adhesion parameter): 1, or (2/3) f0 / W.
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,

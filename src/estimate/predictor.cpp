@@ -96,6 +96,17 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     }
   });
 
+  if (model.law_error) {
+    const std::size_t count = model.law_error->count();
+    law_functions_.resize(points_.size() * count);
+    loss_factor_.resize(points_.size());
+    over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t own) {
+      for (std::size_t i = first; i < first + own; ++i) {
+        model.law_error->functions(points_[i], std::span(law_functions_).subspan(i * count, count));
+      }
+    });
+  }
+
   // Above this number sorting costs more than the impacts.
   constexpr std::size_t few = 8 * points_of_block;
   if (points_.size() <= few) alike_ = first_alike(points_);
@@ -128,7 +139,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       }
     }
   }
-  extended_.emplace(std::move(chain), std::move(extended), !model.constants.empty());
+  extended_.emplace(std::move(chain), std::move(extended), model.material_count() > 0);
   values_.resize(slots_.size());
 }
 
@@ -141,7 +152,28 @@ void PointPredictor::take_parameters(std::span<const double> theta, bool gradien
     force_[d] = adhesion_force_under(model_, theta, d);
     force_slope_[d] = adhesion_force_slope(model_, theta, d);
   }
-  if (!model_.constants.empty()) take_materials(theta, gradient);
+  if (model_.material_count() > 0) take_materials(theta, gradient);
+  if (model_.law_error) take_law_error(theta);
+}
+
+void PointPredictor::take_law_error(std::span<const double> theta) {
+  const std::span<const double> z = theta.subspan(model_.first_law_slot());
+  over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      loss_factor_[i] = std::inner_product(z.begin(), z.end(), &law_functions_[i * z.size()], 1.0);
+    }
+  });
+}
+
+void PointPredictor::bend(std::size_t first, std::span<ImpactResult> answers) const {
+  if (!model_.law_error) return;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    ImpactResult& answer = answers[k];
+    if (!answer.usable()) continue;
+    double& square = answer.restitution_squared;
+    square = 1.0 - (1.0 - square) * loss_factor_[first + k];
+    answer.outcome = square > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+  }
 }
 
 ImpactGroups PointPredictor::groups_at(std::size_t i) const {
@@ -191,11 +223,14 @@ void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   const ImpactOptions options = model_.impact_options(gradient);
   if (extended_) {
     evaluate_extended(theta, options);
+    bend(0, results_);
     return;
   }
   std::atomic<long> handed_over = 0;
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
-    handed_over += simulate_range(first, options, std::span(results_).subspan(first, count));
+    const std::span<ImpactResult> answers = std::span(results_).subspan(first, count);
+    handed_over += simulate_range(first, options, answers);
+    bend(first, answers);
   });
   handovers_ += handed_over;
 }
@@ -234,6 +269,7 @@ void PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
     std::array<ImpactResult, points_of_block> room;
     const std::span<ImpactResult> answers = std::span(room).first(count);
     handed_over += simulate_range(first, options, answers);
+    bend(first, answers);
     take(first, answers);
   });
   handovers_ += handed_over;
@@ -270,6 +306,17 @@ void PointPredictor::evaluate_extended(std::span<const double> theta,
 
 void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, double scale,
                                   std::span<double> row) const {
+  base_gradient_row(i, answer, scale * loss_factor(i), row);
+  if (!model_.law_error) return;
+  const double loss = (1.0 - answer.restitution_squared) / loss_factor(i);
+  const std::size_t count = model_.law_error->count();
+  for (std::size_t k = 0; k < count; ++k) {
+    row[model_.first_law_slot() + k] = -scale * loss * law_functions_[i * count + k];
+  }
+}
+
+void PointPredictor::base_gradient_row(std::size_t i, const ImpactResult& answer, double scale,
+                                       std::span<double> row) const {
   const PointConditions& p = points_[i];
   const auto& by_group = answer.gradient;
   std::fill(row.begin(), row.end(), 0.0);
@@ -308,16 +355,33 @@ void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, dou
   }
 }
 
+double PointPredictor::bent_slope(std::size_t i, double slope,
+                                  double PointConditions::*input) const {
+  if (!model_.law_error) return slope;
+  constexpr double step = 1e-4;  // relative; g is smooth, so the error is about its square
+  const auto g = [&](double factor) {
+    PointConditions beside = points_[i];
+    beside.*input *= factor;
+    return (*model_.law_error)(
+        beside, std::span<const double>(last_theta_).subspan(model_.first_law_slot()));
+  };
+  const double bend = (g(1.0 + step) - g(1.0 - step)) / (2.0 * step * points_[i].*input);
+  const double loss = (1.0 - results_[i].restitution_squared) / loss_factor(i);
+  return loss_factor(i) * slope - loss * bend;
+}
+
 double PointPredictor::velocity_slope(std::size_t i) const {
-  if (extended_) return extended_->slopes(i)[0];
+  if (extended_) return bent_slope(i, extended_->slopes(i)[0], &PointConditions::velocity);
   const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
-  return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
-         points_[i].velocity;
+  const double slope =
+      (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
+      points_[i].velocity;
+  return bent_slope(i, slope, &PointConditions::velocity);
 }
 
 double PointPredictor::diameter_slope(std::size_t i) const {
-  if (extended_) return extended_->slopes(i)[1];
+  if (extended_) return bent_slope(i, extended_->slopes(i)[1], &PointConditions::diameter);
   // beta ~ f0 R^(1/5) m^(-2/5) with f0 ~ R^(1/3) (eq. 12); lambda ~ f0. On a flat R ~ D, m ~ D^3.
   const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
@@ -326,9 +390,10 @@ double PointPredictor::diameter_slope(std::size_t i) const {
   const double of_radius = 2.0 * contact.relative_radius(diameter) / diameter;  // d ln R / d ln D
   const double of_mass = 3.0 * contact.reduced_mass(diameter, contact.particle_density) /
                          sphere_mass(diameter, contact.particle_density);
-  return (g.range * by_group[4] * of_radius / 3.0 +
-          g.beta * by_group[1] * (8.0 / 15.0 * of_radius - 0.4 * of_mass)) /
-         diameter;
+  const double slope = (g.range * by_group[4] * of_radius / 3.0 +
+                        g.beta * by_group[1] * (8.0 / 15.0 * of_radius - 0.4 * of_mass)) /
+                       diameter;
+  return bent_slope(i, slope, &PointConditions::diameter);
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,

@@ -77,6 +77,15 @@ class PointPredictor {
  private:
   void take_parameters(std::span<const double> theta, bool gradient);
   void take_materials(std::span<const double> theta, bool gradient);
+  void take_law_error(std::span<const double> theta);
+  /// 1 + g of the error of the laws at point i, for the last theta.
+  double loss_factor(std::size_t i) const { return loss_factor_.empty() ? 1.0 : loss_factor_[i]; }
+  /// Applies the error of the laws to the answers of points `first`, `first` + 1, ...
+  void bend(std::size_t first, std::span<ImpactResult> answers) const;
+  void base_gradient_row(std::size_t i, const ImpactResult& answer, double scale,
+                         std::span<double> row) const;
+  /// The slope of e^2 at point i in an input, given that of the model: with the error of the laws.
+  double bent_slope(std::size_t i, double slope, double PointConditions::*input) const;
   ImpactGroups groups_at(std::size_t i) const;
   long simulate_range(std::size_t first, const ImpactOptions& options,
                       std::span<ImpactResult> answers) const;
@@ -95,6 +104,8 @@ class PointPredictor {
   std::vector<double> range_scale_;          // lambda relative to the stated materials
   std::vector<std::vector<MaterialSlope>> material_slopes_;  // empty if exact
   std::vector<Surroundings> surroundings_;
+  std::vector<double> law_functions_;        // phi of LawError [points x coefficients]; or empty
+  std::vector<double> loss_factor_;          // 1 + g [points]
   std::optional<ExtendedImpacts> extended_;  // when mechanisms act
   std::vector<std::size_t> slots_;           // slots of the values of every point, with extended_
   std::vector<double> nulls_;                // these values without a slot

@@ -75,41 +75,6 @@ class Extrapolation {
   std::vector<double> last_;
 };
 
-/// -2 ln restricted likelihood up to a constant that the variance functions share.
-double restricted_criterion(const ImpactModel& model, const Observations& data,
-                            const ReweightedFit& result) {
-  const LeastSquaresResult& run = result.run;
-  const std::optional<StudentNoise>& student = data.noise.student;
-  const double unit = student ? student->calibration() : 1.0;
-  double criterion =
-      run.sum_of_squares / unit + SharedErrors(data, result.weights).log_determinant();
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const PointWeights& own = result.weights.points[i];
-    if (data.points[i].censored) continue;
-    // The residual holds only the deviance above the peak.
-    if (own.scatter > 0.0) criterion += own.peak.deviance;
-    criterion += 2.0 * std::log(own.scatter > 0.0 ? own.mean_sd : own.sd);
-  }
-  const std::size_t p = run.theta.size();
-  std::vector<std::size_t> free;
-  for (std::size_t j = 0; j < p; ++j) {
-    if (model.slots[j].moves()) free.push_back(j);
-  }
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(run.residuals.size()),
-                           static_cast<Eigen::Index>(free.size()));
-  for (std::size_t i = 0; i < run.residuals.size(); ++i) {
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          run.jacobian[i * p + free[k]];
-    }
-  }
-  if (free.empty()) return criterion;
-  const Eigen::VectorXd diagonal =
-      jacobian.householderQr().matrixQR().diagonal().cwiseAbs().array().log();
-  const double log_determinant = 2.0 * diagonal.sum();
-  return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
-}
-
 /// @param limit ends the rounds if the restricted criterion, at the best scale, exceeds it
 ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, const Noise& noise,
                             std::span<const double> start, const ReweightingOptions& options,
@@ -150,7 +115,7 @@ ReweightedFit reweight_with(const ImpactModel& model, const Observations& data, 
       if (result.at_rest) break;
       scale = std::max(scale, std::min(1.0, rounding / noise_scale));
       const double square = scale * scale;
-      if (std::isfinite(limit) && restricted_criterion(model, data, result) -
+      if (std::isfinite(limit) && restricted_criterion(model, data, result.run, result.weights) -
                                           found.dof * (square - 1.0 - std::log(square)) >
                                       limit) {
         break;
@@ -179,6 +144,38 @@ ReweightedFit finished(const ImpactModel& model, const Observations& data, Rewei
 }
 
 }  // namespace
+
+double restricted_criterion(const ImpactModel& model, const Observations& data,
+                            const LeastSquaresResult& run, const Weights& weights) {
+  const std::optional<StudentNoise>& student = data.noise.student;
+  const double unit = student ? student->calibration() : 1.0;
+  double criterion = run.sum_of_squares / unit + SharedErrors(data, weights).log_determinant();
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const PointWeights& own = weights.points[i];
+    if (data.points[i].censored) continue;
+    // The residual holds only the deviance above the peak.
+    if (own.scatter > 0.0) criterion += own.peak.deviance;
+    criterion += 2.0 * std::log(own.scatter > 0.0 ? own.mean_sd : own.sd);
+  }
+  const std::size_t p = run.theta.size();
+  std::vector<std::size_t> free;
+  for (std::size_t j = 0; j < p; ++j) {
+    if (model.slots[j].moves()) free.push_back(j);
+  }
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(run.residuals.size()),
+                           static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < run.residuals.size(); ++i) {
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          run.jacobian[i * p + free[k]];
+    }
+  }
+  if (free.empty()) return criterion;
+  const Eigen::VectorXd diagonal =
+      jacobian.householderQr().matrixQR().diagonal().cwiseAbs().array().log();
+  const double log_determinant = 2.0 * diagonal.sum();
+  return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
+}
 
 double penalty_of(VarianceFunction function) {
   switch (function) {
@@ -265,7 +262,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data,
       continue;
     }
     const Noise& found = result.weights.noise;
-    const double criterion = restricted_criterion(model, data, result);
+    const double criterion = restricted_criterion(model, data, result.run, result.weights);
     const double total = criterion + penalty_of(function);
     if (again && !(total > limit)) before = &*known;
     if (!again || before == &*known) {

@@ -71,6 +71,11 @@ struct ReweightingOptions {
 ReweightedFit reweighted_fit(const ImpactModel& model, const Observations& data, const Noise& noise,
                              std::span<const double> start, const ReweightingOptions& options = {});
 
+/// -2 ln restricted likelihood up to a constant that all variance functions and all errors of the
+/// laws share: sum 2 ln sd_i + chi2 + ln |J'J|.
+double restricted_criterion(const ImpactModel& model, const Observations& data,
+                            const LeastSquaresResult& run, const Weights& weights);
+
 /// The penalty added to -2 ln restricted likelihood in the comparison of variance functions.
 double penalty_of(VarianceFunction function);
 

@@ -60,6 +60,7 @@ enum class ParameterRole {
   adhesion_force,     ///< f0: follows from the materials (eq. 12) unless a fit states it
   adhesion_energy,    ///< W, instead of f0, under other adhesion laws than the ring law
   material_constant,  ///< a constant of the bodies that is known with an error
+  law_error,          ///< a coefficient of the error of the laws
 };
 
 /// A parameter of the base model or of a mechanism. Fit files and the slots of theta refer to this

@@ -8,7 +8,7 @@
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/words_fit.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 
 namespace recoil {
 namespace {

@@ -10,13 +10,13 @@ namespace recoil {
 namespace {
 
 /// ln V* / V*_1 under every variance function of the noise, with V*_1 the value under the first.
-std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alternatives,
+std::vector<WaldTerm> capture_terms(const std::vector<FitAlternative>& alternatives,
                                     const CaptureVelocity& capture, std::size_t dataset,
                                     double diameter) {
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   std::vector<WaldTerm> terms;
-  for (const NoiseAlternative& alternative : alternatives) {
-    const FitResult& other = alternative.fitted;
+  for (const FitAlternative& alternative : alternatives) {
+    const FitResult& other = alternative.fitted();
     const bool own = &other == &fitted;
     const CaptureVelocity v =
         own ? capture
@@ -31,11 +31,11 @@ std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alterna
 
 /// The interval of V* by the delta method on its logarithm, averaged over the variance
 /// functions of the noise.
-Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
+Interval delta_interval(const std::vector<FitAlternative>& alternatives,
                         const CaptureVelocity& capture, std::size_t dataset, double diameter,
                         double level) {
   Interval interval;
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   const double spread = fitted.weights.noise.event_spread;
   if (spread > widest_spread) interval.note = {Caution::wide_spread, spread};
   if (averages_over_sizes(fitted.model, dataset)) {
@@ -89,9 +89,9 @@ Interval studentized_capture(const BootstrapResult& boot, std::size_t k, double 
 
 }  // namespace
 
-std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
+std::vector<CaptureEstimate> capture_estimates(const std::vector<FitAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets) {
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   std::vector<CaptureEstimate> estimates;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const double diameter : distinct_diameters(datasets[d])) {
@@ -109,9 +109,9 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
   return estimates;
 }
 
-Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
+Interval capture_interval(const std::vector<FitAlternative>& alternatives,
                           const CaptureEstimate& at, double level) {
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   return delta_interval(alternatives,
                         capture_velocity(fitted.model, fitted.theta, at.dataset, at.diameter),
                         at.dataset, at.diameter, level);

@@ -4,17 +4,17 @@
 
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/capture_estimate.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 
 namespace recoil {
 
 /// The capture velocity of every (dataset, diameter) of a fit with its delta interval.
-/// @param alternatives of `noise_alternatives`; the first is the fit
-std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
+/// @param alternatives of `fit_alternatives`; the first is the fit
+std::vector<CaptureEstimate> capture_estimates(const std::vector<FitAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets);
 
 /// The delta interval of V* [m/s] at another level.
-Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
+Interval capture_interval(const std::vector<FitAlternative>& alternatives,
                           const CaptureEstimate& at, double level);
 
 /// Selects the interval of V* to quote (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).

@@ -114,7 +114,7 @@ std::vector<CapturePlace> places_of(const ImpactModel& model,
 Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,
-                                      const std::vector<NoiseAlternative>& alternatives) {
+                                      const std::vector<FitAlternative>& alternatives) {
   Identifiability result;
   result.event_spread = fitted.weights.noise.event_spread;
   int free_count = 0;

@@ -5,9 +5,9 @@
 
 #include "core/names.hpp"
 #include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/information.hpp"
 #include "uncertainty/interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 
@@ -88,10 +88,10 @@ struct Identifiability {
 /// differs by more than the factor `undecided` between functions that the points cannot
 /// distinguish, the interval may be too narrow or too wide. The scatter of the capture velocity
 /// from impact to impact must not exceed `widest_spread`.
-/// @param alternatives of `noise_alternatives`; may be empty if the noise is stated
+/// @param alternatives of `fit_alternatives`; may be empty if the noise is stated
 Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,
-                                      const std::vector<NoiseAlternative>& alternatives = {});
+                                      const std::vector<FitAlternative>& alternatives = {});
 
 }  // namespace recoil

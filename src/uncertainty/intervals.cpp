@@ -11,17 +11,14 @@
 #include "estimate/least_squares.hpp"
 
 namespace recoil {
-namespace {
 
-/// Distribution function: normal for dof 0, else Student's t.
-double distribution(double x, int dof) {
+double student_probability(double x, int dof) {
   return dof > 0 ? gsl_cdf_tdist_P(x, dof) : gsl_cdf_ugaussian_P(x);
 }
-double distribution_inverse(double p, int dof) {
+
+double student_quantile(double p, int dof) {
   return dof > 0 ? gsl_cdf_tdist_Pinv(p, dof) : gsl_cdf_ugaussian_Pinv(p);
 }
-
-}  // namespace
 
 Interval percentile_interval(std::vector<double> replicates, double level) {
   if (replicates.size() < fewest_replicates(level)) return no_interval(NoInterval::few_replicates);
@@ -137,7 +134,7 @@ Interval wald_interval(double estimate, double std_error, double level, int dof,
                        double upper) {
   if (!(std_error > 0.0)) return no_interval(NoInterval::no_standard_error);
   const double tail = 0.5 + level / 2.0;
-  const double quantile = distribution_inverse(tail, dof);
+  const double quantile = student_quantile(tail, dof);
   Interval interval;
   interval.lower = std::max(lower, estimate - quantile * std_error);
   interval.upper = std::min(upper, estimate + quantile * std_error);
@@ -157,7 +154,7 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
     double high = -INFINITY;
     for (const WaldTerm& term : terms) {
       if (!(term.std_error > 0.0)) continue;
-      const double own = term.estimate + distribution_inverse(p, term.dof) * term.std_error;
+      const double own = term.estimate + student_quantile(p, term.dof) * term.std_error;
       low = std::min(low, own);
       high = std::max(high, own);
     }
@@ -165,8 +162,8 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
       double below = 0.0;
       for (const WaldTerm& term : terms) {
         if (!(term.std_error > 0.0)) continue;
-        below +=
-            term.weight / total * distribution((value - term.estimate) / term.std_error, term.dof);
+        below += term.weight / total *
+                 student_probability((value - term.estimate) / term.std_error, term.dof);
       }
       return below - p;
     };
@@ -180,14 +177,14 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
 }
 
 double profile_quantile(double level, int dof, double distance) {
-  const double far = std::pow(distribution_inverse(0.5 + level / 2.0, dof), 2);
+  const double far = std::pow(student_quantile(0.5 + level / 2.0, dof), 2);
   if (distance * distance >= far) return far;
-  const double on_bound = level > 0.5 ? std::pow(distribution_inverse(level, dof), 2) : 0.0;
+  const double on_bound = level > 0.5 ? std::pow(student_quantile(level, dof), 2) : 0.0;
   if (!(distance > 0.0)) return on_bound;
   // The probability increases with c; at the ends it may equal the level up to rounding.
   const auto excess = [&](double c) {
-    return distribution(std::sqrt(c), dof) -
-           distribution(-(c + distance * distance) / (2.0 * distance), dof) - level;
+    return student_probability(std::sqrt(c), dof) -
+           student_probability(-(c + distance * distance) / (2.0 * distance), dof) - level;
   };
   if (!(excess(on_bound) < 0.0)) return on_bound;
   if (!(excess(far) > 0.0)) return far;

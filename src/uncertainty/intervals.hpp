@@ -35,6 +35,10 @@ Interval studentized_interval(std::span<const double> replicates,
                               std::span<const double> replicate_errors, double estimate,
                               double std_error, double level, double lower, double upper);
 
+/// The distribution function of Student's t and its inverse; normal for dof 0.
+double student_probability(double x, int dof);
+double student_quantile(double p, int dof);
+
 /// estimate +- quantile * std_error, cut at the bounds.
 /// @param dof degrees of freedom of the estimated noise; 0: the noise is known (normal quantile)
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/numerics.hpp"
 #include "core/parallel.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/interval.hpp"
@@ -41,11 +42,79 @@ void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::si
   set.bound_share = bound_share(boot, slot, j);
 }
 
+/// The distances of the ends of an interval from the estimate.
+struct Arms {
+  double down = 0.0, up = 0.0;
+};
+
+/// The profile interval averaged over the alternatives: its ends have the averaged tail areas
+/// (Turek & Fletcher 2012, see `averaged_wald_interval`). Under each alternative the distribution
+/// has two halves, which have the arms of its profile; an alternative with a weight of less than
+/// `own_profile` has those of the first, in its standard errors.
+Interval averaged_profile(const std::vector<FitAlternative>& alternatives, std::size_t j,
+                          double level) {
+  constexpr double own_profile = 0.1;
+  const FitResult& first = alternatives.front().fitted();
+  const ParameterSlot& slot = first.model.slots[j];
+  Interval interval = profile_interval(first, j, level);
+  if (alternatives.size() == 1 || !interval.available()) return interval;
+  const Arms of_first = {first.theta[j] - *interval.lower, *interval.upper - first.theta[j]};
+  struct Half {
+    double weight, middle;
+    Arms arms;
+    int dof;
+  };
+  std::vector<Half> terms;
+  double sum = 0.0;
+  double least = *interval.lower;
+  double most = *interval.upper;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    const FitResult& other = alternatives[k].fitted();
+    Arms arms = of_first;
+    const double ratio = first.std_error[j] > 0.0 ? other.std_error[j] / first.std_error[j] : 0.0;
+    if (k > 0 && (alternatives[k].weight >= own_profile || !(ratio > 0.0))) {
+      const Interval own = profile_interval(other, j, level);
+      if (!own.available()) continue;
+      arms = {other.theta[j] - *own.lower, *own.upper - other.theta[j]};
+    } else if (k > 0) {
+      arms = {ratio * arms.down, ratio * arms.up};
+    }
+    terms.push_back({alternatives[k].weight, other.theta[j], arms, degrees_of_freedom(other, j)});
+    sum += alternatives[k].weight;
+    least = std::min(least, other.theta[j] - arms.down);
+    most = std::max(most, other.theta[j] + arms.up);
+  }
+  const auto end = [&](double p) {
+    const auto excess = [&](double value) {
+      double below = 0.0;
+      for (const Half& term : terms) {
+        const double arm = value < term.middle ? term.arms.down : term.arms.up;
+        const double z =
+            arm > 0.0 ? (value - term.middle) / arm : std::copysign(INFINITY, value - term.middle);
+        below += term.weight / sum *
+                 student_probability(z * student_quantile(0.5 + level / 2.0, term.dof), term.dof);
+      }
+      return below - p;
+    };
+    if (!(excess(least) < 0.0)) return least;
+    if (!(excess(most) > 0.0)) return most;
+    return find_root(excess, least, most);
+  };
+  interval.lower = std::max(slot.lower, end(0.5 - level / 2.0));
+  interval.upper = std::min(slot.upper, end(0.5 + level / 2.0));
+  const bool low = *interval.lower <= slot.lower;
+  const bool high = *interval.upper >= slot.upper;
+  interval.shape = low && high   ? ProfileShape::flat
+                   : low || high ? ProfileShape::one_sided
+                                 : ProfileShape::bounded;
+  return interval;
+}
+
 }  // namespace
 
-std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative>& alternatives,
+std::vector<IntervalSet> likelihood_intervals(const std::vector<FitAlternative>& alternatives,
                                               double level, int threads) {
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   std::vector<IntervalSet> sets(fitted.theta.size());
   parallel_over(sets.size(), threads, [&](std::size_t j) {
     IntervalSet& set = sets[j];
@@ -62,8 +131,8 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
       }
       return;
     }
-    set[IntervalKind::wald] = wald_over_noise(alternatives, j, level);
-    set[IntervalKind::profile] = profile_interval(fitted, j, level);
+    set[IntervalKind::wald] = averaged_wald(alternatives, j, level);
+    set[IntervalKind::profile] = averaged_profile(alternatives, j, level);
   });
   return sets;
 }
@@ -102,7 +171,7 @@ std::optional<ConditionalFit> conditional_fit(const FitResult& fitted, double le
   FitResult exact = fit(with_exact_materials(fitted.model), fitted.data);
   if (!exact.usable) return std::nullopt;
   std::vector<IntervalSet> intervals =
-      likelihood_intervals(noise_alternatives(exact), level, threads);
+      likelihood_intervals(fit_alternatives(exact), level, threads);
   return ConditionalFit{std::move(exact), std::move(intervals)};
 }
 

@@ -5,16 +5,16 @@
 
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 
 /// The intervals of every slot that need no replicates [slots]: Wald, averaged over the variance
 /// functions of the noise, and profile.
-/// @param alternatives of `noise_alternatives`; the first is the fit
+/// @param alternatives of `fit_alternatives`; the first is the fit
 /// @param threads 0: all cores. Results do not depend on it.
-std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative>& alternatives,
+std::vector<IntervalSet> likelihood_intervals(const std::vector<FitAlternative>& alternatives,
                                               double level, int threads);
 
 /// Adds the profile likelihood of every free slot, for pictures.

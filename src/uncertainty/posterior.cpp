@@ -418,10 +418,10 @@ void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& mov
 
 /// Selects joint draws from the variance functions in proportion to their weights: the fractional
 /// parts of multiples of the golden ratio cover [0, 1) evenly within every chain.
-void keep_draws(const std::vector<NoiseAlternative>& alternatives,
+void keep_draws(const std::vector<FitAlternative>& alternatives,
                 const std::vector<SampledFit>& sampled, const std::vector<std::size_t>& moving,
                 const PosteriorOptions& options, PosteriorResult& result) {
-  const std::vector<Observation>& points = alternatives.front().fitted.data.points;
+  const std::vector<Observation>& points = alternatives.front().fitted().data.points;
   const bool scaled = sampled.front().chains.front().density->scaled;
   if (result.left_out.possible()) result.pointwise.resize(points.size());
   for (std::size_t c = 0; c < options.chains; ++c) {
@@ -436,7 +436,7 @@ void keep_draws(const std::vector<NoiseAlternative>& alternatives,
       const Posterior& density = *sampled[k].chains[c].density;
       const State& state = sampled[k].chains[c].kept[i];
       result.draws.push_back(state.theta);
-      draw_constants(alternatives[k].fitted, moving, constants, result.draws.back());
+      draw_constants(alternatives[k].fitted(), moving, constants, result.draws.back());
       const double scale = scaled ? density.draw_scale(state, scales) : 1.0;
       if (scaled) result.scale.push_back(scale);
       const std::vector<double> each = density.pointwise(state, scale);
@@ -505,10 +505,10 @@ void fill_capture(const FitResult& fitted, const std::vector<CaptureEstimate>& c
 
 }  // namespace
 
-PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternatives,
+PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives,
                                  const std::vector<CaptureEstimate>& capture,
                                  const PosteriorOptions& options) {
-  const FitResult& fitted = alternatives.front().fitted;
+  const FitResult& fitted = alternatives.front().fitted();
   PosteriorResult result;
   result.parameters.resize(fitted.theta.size());
   for (PosteriorMarginal& marginal : result.parameters) {
@@ -522,8 +522,8 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
   }
   result.chains = options.chains;
   std::vector<SampledFit> sampled;
-  for (const NoiseAlternative& alternative : alternatives) {
-    sampled.push_back(sample_one(alternative.fitted, options, sampled.size() * options.chains));
+  for (const FitAlternative& alternative : alternatives) {
+    sampled.push_back(sample_one(alternative.fitted(), options, sampled.size() * options.chains));
     const SampledFit& own = sampled.back();
     result.steps = std::max(result.steps, own.steps);
     result.acceptance += alternative.weight * own.acceptance;

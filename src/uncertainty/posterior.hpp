@@ -5,8 +5,8 @@
 
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/chains.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
@@ -53,7 +53,7 @@ inline constexpr double largest_pareto_k = 0.7;
 /// multiplied by an unknown scale with the prior 1 / scale; integrated over the scale,
 ///   p ~ (sum r^2)^(-n/2) over the n points with rebounds,
 /// and a draw of the scale is (sum r^2 / chi2_n)^(1/2). If the fit chose its variance function, the
-/// posterior is the mixture over the functions with the weights of `noise_alternatives`. Under one
+/// posterior is the mixture over the functions with the weights of `fit_alternatives`. Under one
 /// function, the relative weights of points, their effective variances and the spread of the
 /// impacts are those of its fit.
 struct PosteriorResult {
@@ -81,8 +81,8 @@ struct PosteriorResult {
 /// Gauss-Newton covariance at first, and then that of the draws of the round before. Proposals do
 /// not change within a round, and only the last round is kept. The length of the rounds doubles
 /// until every quantity has converged.
-/// @param alternatives of `noise_alternatives`; the first is the fit
-PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternatives,
+/// @param alternatives of `fit_alternatives`; the first is the fit
+PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives,
                                  const std::vector<CaptureEstimate>& capture,
                                  const PosteriorOptions& options);
 

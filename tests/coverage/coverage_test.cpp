@@ -11,7 +11,7 @@
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/profile.hpp"
 #include "uncertainty/resample.hpp"
@@ -60,7 +60,7 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
     ASSERT_TRUE(fitted.usable) << fitted.failure;
     const CaptureEstimate at =
-        capture_estimates(noise_alternatives(fitted), 0.95, datasets).front();
+        capture_estimates(fit_alternatives(fitted), 0.95, datasets).front();
     const double off = std::log(at.value / truth.capture[0].velocity);
     const Interval& delta = at[CaptureIntervalKind::delta];
     const double error = std::log(*delta.upper / *delta.lower) / (2.0 * 1.959964);
@@ -133,7 +133,7 @@ TEST(OwnDesign, CountsTheIntervalsOfTheFitsOwnPoints) {
   spec.uncertainty.materials = Materials::exact;
   const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
-  const auto alternatives = noise_alternatives(fitted);
+  const auto alternatives = fit_alternatives(fitted);
   std::vector<IntervalSet> sets = likelihood_intervals(alternatives, 0.95, 0);
   std::vector<CaptureEstimate> captures = capture_estimates(alternatives, 0.95, datasets);
   UncertaintyOptions options;

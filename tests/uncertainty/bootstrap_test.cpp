@@ -11,7 +11,7 @@
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -94,7 +94,7 @@ TEST(Bootstrap, ReplicatesAsPiecesGiveTheSameResult) {
   shared.kept = std::make_shared<KeptRows>();
   resumable(
       bootstrap_pieces(c.fitted,
-                       capture_estimates(noise_alternatives(c.fitted), options.level, c.datasets),
+                       capture_estimates(fit_alternatives(c.fitted), options.level, c.datasets),
                        options),
       *shared.kept);
   ASSERT_EQ(shared.kept->size(), static_cast<std::size_t>(options.replicates));

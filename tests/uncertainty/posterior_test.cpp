@@ -65,7 +65,7 @@ TEST(Posterior, AgreesWithSumsOnAGrid) {
     if (!stated) noise.variance = VarianceFunction::constant;
     const FitResult fitted = fit(make_model(synthetic::spec(), {used}), gather({used}, noise));
     ASSERT_TRUE(fitted.usable);
-    const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, {});
+    const PosteriorResult found = sample_posterior(fit_alternatives(fitted), {}, {});
     ASSERT_TRUE(found.available());
     const GridAnswer grid = damping_on_a_grid(data, stated, fitted.theta[0], fitted.std_error[0],
                                               fitted.theta[1], fitted.std_error[1]);
@@ -86,7 +86,7 @@ TEST(Posterior, ConstantsOfWhichThePointsSayNothingKeepTheirPrior) {
   data.system.errors = {{Body::particle, Constant::density, 135.0}};
   const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
   ASSERT_TRUE(fitted.usable);
-  const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, {});
+  const PosteriorResult found = sample_posterior(fit_alternatives(fitted), {}, {});
   ASSERT_TRUE(found.available());
   const double sd = std::sqrt(std::log1p(0.01));
   const PosteriorMarginal& density = found.parameters[fitted.model.first_constant()];
@@ -113,18 +113,18 @@ TEST(Posterior, SameDigitsAtAnyThreadsAndOthersForAnotherSeed) {
   three.threads = 3;
   PosteriorOptions other;
   other.seed = 4;
-  const PosteriorResult a = sample_posterior(noise_alternatives(c.fitted), {}, one);
-  const PosteriorResult b = sample_posterior(noise_alternatives(c.fitted), {}, three);
+  const PosteriorResult a = sample_posterior(fit_alternatives(c.fitted), {}, one);
+  const PosteriorResult b = sample_posterior(fit_alternatives(c.fitted), {}, three);
   EXPECT_EQ(a.draws, b.draws);
   EXPECT_EQ(a.parameters[1].interval.lower, b.parameters[1].interval.lower);
-  EXPECT_NE(a.draws, sample_posterior(noise_alternatives(c.fitted), {}, other).draws);
+  EXPECT_NE(a.draws, sample_posterior(fit_alternatives(c.fitted), {}, other).draws);
 }
 
 TEST(Posterior, LeavesOutPointsAsRefitsToTheOthersWould) {
   // Against the definition: ln of the mean density of the point over the posterior of a fit to all
   // others. With stated noise that density is normal in e, with the standard deviation sigma.
   const synthetic::Case c = synthetic::noisy_case();
-  const PosteriorResult all = sample_posterior(noise_alternatives(c.fitted), {}, {});
+  const PosteriorResult all = sample_posterior(fit_alternatives(c.fitted), {}, {});
   ASSERT_TRUE(all.available());
   ASSERT_EQ(all.left_out.points.size(), c.data.points.size());
   for (const std::size_t left : {std::size_t{1}, c.data.points.size() - 1}) {
@@ -134,7 +134,7 @@ TEST(Posterior, LeavesOutPointsAsRefitsToTheOthersWould) {
     ASSERT_FALSE(point.all_captured());
     points.erase(points.begin() + static_cast<std::ptrdiff_t>(left));
     const FitResult fitted = fit(make_model(synthetic::spec(), others), gather(others));
-    const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, {});
+    const PosteriorResult found = sample_posterior(fit_alternatives(fitted), {}, {});
     ASSERT_TRUE(found.available());
     double density = 0.0;
     const double sd = *point.restitution_sd;
@@ -158,7 +158,7 @@ TEST(Posterior, RefusesWhatHasNotSettled) {
   PosteriorOptions options;
   options.length = 20;
   options.most_steps = 40;
-  const PosteriorResult found = sample_posterior(noise_alternatives(c.fitted), {}, options);
+  const PosteriorResult found = sample_posterior(fit_alternatives(c.fitted), {}, options);
   ASSERT_FALSE(found.available());
   EXPECT_EQ(*found.missing, NoPosterior::not_settled);
   EXPECT_FALSE(found.parameters[0].interval.available());

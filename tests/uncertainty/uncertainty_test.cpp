@@ -224,7 +224,7 @@ TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
     EXPECT_EQ(verdict.parameter[0].identifiable, spread < 0.2);
     EXPECT_EQ(verdict.parameter[0].hindrance == Hindrance::wide_spread, spread > 0.2);
     EXPECT_EQ(verdict.event_spread, spread);
-    const auto estimates = capture_estimates(noise_alternatives(c.fitted), 0.95, c.datasets);
+    const auto estimates = capture_estimates(fit_alternatives(c.fitted), 0.95, c.datasets);
     const auto note = estimates.front()[CaptureIntervalKind::delta].note;
     EXPECT_EQ(note && note->caution == Caution::wide_spread, spread > 0.2);
   }
@@ -235,7 +235,7 @@ TEST(CaptureEstimates, SayWherePointsMixSizes) {
   const auto caution_of = [&](bool mixed) {
     c.fitted.model.surroundings.resize(1);
     c.fitted.model.surroundings[0].sizes.spread = mixed ? 0.35 : 0.0;
-    const auto estimates = capture_estimates(noise_alternatives(c.fitted), 0.95, c.datasets);
+    const auto estimates = capture_estimates(fit_alternatives(c.fitted), 0.95, c.datasets);
     const auto note = estimates.front()[CaptureIntervalKind::delta].note;
     return note && note->caution == Caution::mixed_sizes;
   };

@@ -143,7 +143,7 @@ std::vector<double> ranks_of(RankArm arm, std::uint64_t index, std::uint64_t see
   PosteriorOptions options;
   options.seed = seed + stream;
   options.threads = threads;
-  const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, options);
+  const PosteriorResult found = sample_posterior(fit_alternatives(fitted), {}, options);
   if (!found.available()) return {};
   std::vector<double> ranks;
   std::size_t slot = 0;

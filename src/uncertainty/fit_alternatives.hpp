@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "estimate/fit.hpp"
@@ -7,21 +8,27 @@
 
 namespace recoil {
 
-/// The fit under one of the variance functions that agree with its points.
-struct NoiseAlternative {
+/// The fit under one of the assumptions that agree with its points: about the error of the laws, or
+/// about the variance function of the noise.
+struct FitAlternative {
   double weight = 1.0;  ///< its weight in averaged intervals; the weights add up to 1
-  FitResult fitted;
+  std::shared_ptr<const FitResult> held;
+
+  const FitResult& fitted() const { return *held; }
 };
+
+/// The fit itself, which must outlive the result, with its alternatives: those of `fit_over_laws`
+/// and `noise_alternatives`.
+std::vector<FitAlternative> fit_alternatives(const FitResult& fitted);
 
 /// The fit itself and, if its variance function was chosen among several, the fits with the others.
 /// The weights are proportional to exp(-(c - c_min) / 2), where c is the restricted criterion with
 /// its penalty (see `reweighted_fit`). Functions with a relative weight below 0.001 are omitted. A
 /// fit with stated noise, or with a variance function from the fit file, has no alternatives.
-std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted);
+std::vector<FitAlternative> noise_alternatives(const FitResult& fitted);
 
 /// The estimate of slot j under every alternative.
-std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
-                                    std::size_t j);
+std::vector<WaldTerm> terms_of_slot(const std::vector<FitAlternative>& alternatives, std::size_t j);
 
 /// The ratio of the largest to the smallest error among the alternatives with a weight of at least
 /// 0.05, between which the data cannot decide. 1 without a choice.
@@ -39,7 +46,7 @@ constexpr double widest_spread = 0.2;
 
 /// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), clipped
 /// at the slot's bounds; the ordinary one for a single alternative.
-Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
-                         double level);
+Interval averaged_wald(const std::vector<FitAlternative>& alternatives, std::size_t j,
+                       double level);
 
 }  // namespace recoil

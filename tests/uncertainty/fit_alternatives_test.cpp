@@ -1,5 +1,5 @@
 // The ways to see the noise: their weights, and when they leave an error undecided.
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,14 +19,14 @@ FitResult noisy_fit(const NoiseSpec& spec = {}) {
   return one_size::fit_to(data, spec);
 }
 
-TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
+TEST(FitAlternatives, WeighAsTheirCriteriaDo) {
   const FitResult fitted = noisy_fit();
   ASSERT_TRUE(fitted.usable) << fitted.failure;
-  const std::vector<NoiseAlternative> all = noise_alternatives(fitted);
+  const std::vector<FitAlternative> all = fit_alternatives(fitted);
   ASSERT_GE(all.size(), 2U);
   EXPECT_EQ(all.front().fitted.theta, fitted.theta) << "the fit comes first";
   double sum = 0.0;
-  for (const NoiseAlternative& alternative : all) {
+  for (const FitAlternative& alternative : all) {
     sum += alternative.weight;
     EXPECT_LE(alternative.weight, all.front().weight) << "the chosen one is the most likely";
     const auto total = [&](const FitResult& of) {
@@ -38,25 +38,25 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
       return std::nan("");
     };
     EXPECT_NEAR(std::log(alternative.weight / all.front().weight),
-                -0.5 * (total(alternative.fitted) - total(fitted)), 1e-9);
+                -0.5 * (total(alternative.fitted()) - total(fitted)), 1e-9);
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-TEST(NoiseAlternatives, PrescribedNoiseStandsAlone) {
+TEST(FitAlternatives, PrescribedNoiseStandsAlone) {
   NoiseSpec spec;
   spec.variance = VarianceFunction::constant;
   const FitResult fitted = noisy_fit(spec);
   ASSERT_TRUE(fitted.usable) << fitted.failure;
-  const std::vector<NoiseAlternative> all = noise_alternatives(fitted);
+  const std::vector<FitAlternative> all = fit_alternatives(fitted);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all.front().weight, 1.0);
   const Interval plain = wald_interval(fitted.theta[1], fitted.std_error[1], 0.95, fitted.dof,
                                        fitted.model.slots[1].lower, fitted.model.slots[1].upper);
-  EXPECT_EQ(*wald_over_noise(all, 1, 0.95).lower, *plain.lower);
+  EXPECT_EQ(*averaged_wald(all, 1, 0.95).lower, *plain.lower);
 }
 
-TEST(NoiseAlternatives, OnlyPlausibleOnesLeaveAnErrorUndecided) {
+TEST(FitAlternatives, OnlyPlausibleOnesLeaveAnErrorUndecided) {
   EXPECT_EQ(undecided_factor({{1.0, 0.0, 0.3, 8}}), 1.0);
   EXPECT_NEAR(undecided_factor({{0.7, 0.0, 0.3, 8}, {0.26, 0.0, 0.1, 8}, {0.04, 0.0, 0.01, 8}}),
               3.0, 1e-12);

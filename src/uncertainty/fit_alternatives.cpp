@@ -1,4 +1,4 @@
-#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/fit_alternatives.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,18 @@ namespace {
 constexpr double negligible = 1e-3;  // weight below which an alternative is omitted
 constexpr double plausible = 0.05;
 
+/// A reference without ownership.
+std::shared_ptr<const FitResult> borrowed(const FitResult& fitted) {
+  return {std::shared_ptr<const FitResult>(), &fitted};
+}
+
 double total_criterion(const Noise::Candidate& candidate) {
   return candidate.criterion + penalty_of(candidate.function);
 }
 
-}  // namespace
-
-std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
-  std::vector<NoiseAlternative> alternatives = {{1.0, fitted}};
+/// The fit under its error of the laws with every variance function; the weights add up to 1.
+std::vector<FitAlternative> over_noise(const FitResult& fitted) {
+  std::vector<FitAlternative> alternatives = {{1.0, borrowed(fitted)}};
   const Noise& noise = fitted.weights.noise;
   double least = INFINITY;
   for (const Noise::Candidate& candidate : noise.candidates) {
@@ -41,19 +45,44 @@ std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted) {
     options.noise->scale = candidate.scale;
     options.noise->candidates.clear();
     FitResult other = fit(fitted.model, std::move(data), options);
-    if (other.usable) alternatives.push_back({weight, std::move(other)});
+    if (!other.usable) continue;
+    alternatives.push_back({weight, std::make_shared<const FitResult>(std::move(other))});
   }
   double sum = 0.0;
-  for (const NoiseAlternative& alternative : alternatives) sum += alternative.weight;
-  for (NoiseAlternative& alternative : alternatives) alternative.weight /= sum;
+  for (const FitAlternative& alternative : alternatives) sum += alternative.weight;
+  for (FitAlternative& alternative : alternatives) alternative.weight /= sum;
   return alternatives;
 }
 
-std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
+}  // namespace
+
+std::vector<FitAlternative> fit_alternatives(const FitResult& fitted) {
+  std::vector<FitAlternative> alternatives = over_noise(fitted);
+  double others = 0.0;
+  double own = 0.0;
+  for (const LawAlternative& law : fitted.laws) {
+    const bool is_own = law.is_of(fitted);
+    if (is_own) own = law.weight;
+    if (!is_own && law.fitted && law.weight >= negligible) others += law.weight;
+  }
+  if (!(others > 0.0)) return alternatives;
+  for (FitAlternative& alternative : alternatives) alternative.weight *= own / (own + others);
+  for (const LawAlternative& law : fitted.laws) {
+    if (law.is_of(fitted) || !law.fitted || law.weight < negligible) continue;
+    alternatives.push_back({law.weight / (own + others), law.fitted});
+  }
+  return alternatives;
+}
+
+std::vector<FitAlternative> noise_alternatives(const FitResult& fitted) {
+  return over_noise(fitted);
+}
+
+std::vector<WaldTerm> terms_of_slot(const std::vector<FitAlternative>& alternatives,
                                     std::size_t j) {
   std::vector<WaldTerm> terms;
-  for (const NoiseAlternative& alternative : alternatives) {
-    const FitResult& fitted = alternative.fitted;
+  for (const FitAlternative& alternative : alternatives) {
+    const FitResult& fitted = alternative.fitted();
     terms.push_back(
         {alternative.weight, fitted.theta[j], fitted.std_error[j], degrees_of_freedom(fitted, j)});
   }
@@ -71,9 +100,9 @@ double undecided_factor(const std::vector<WaldTerm>& terms) {
   return most > 0.0 ? most / least : 1.0;
 }
 
-Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
-                         double level) {
-  const ParameterSlot& slot = alternatives.front().fitted.model.slots[j];
+Interval averaged_wald(const std::vector<FitAlternative>& alternatives, std::size_t j,
+                       double level) {
+  const ParameterSlot& slot = alternatives.front().fitted().model.slots[j];
   return averaged_wald_interval(terms_of_slot(alternatives, j), level, slot.lower, slot.upper);
 }
 

@@ -1,0 +1,205 @@
+#include "estimate/law_average.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/reweighting.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double smallest_size = 0.003;
+constexpr double largest_size = 0.1;
+constexpr int size_steps = 6;
+constexpr double lengths[] = {0.8, 1.6};
+constexpr std::size_t most_sizes = 12;  // sizes that may have an error each
+constexpr double negligible = 0.01;     // weight below which an assumption is left out
+
+double size_of_step(int step) {
+  return smallest_size *
+         std::pow(largest_size / smallest_size, static_cast<double>(step) / size_steps);
+}
+
+std::size_t count_sizes(const Observations& data) {
+  std::set<std::pair<std::size_t, double>> sizes;
+  for (const Observation& point : data.points) sizes.insert({point.dataset, point.diameter});
+  return sizes.size();
+}
+
+/// The criterion of a fit under an assumption, and where it is.
+struct Screened {
+  LawErrorPrior prior;
+  double prior_weight = 1.0;
+  double criterion = INFINITY;
+  std::vector<double> theta;
+};
+
+/// The fits under one kernel, for all sizes of the error.
+std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
+                                    double prior_weight, const Observations& data) {
+  std::vector<Screened> found;
+  Noise noise = exact.weights.noise;
+  noise.constants_weight = 1.0;
+  noise.candidates.clear();
+  ReweightingOptions options;
+  options.minimiser.strategies = {Strategy::gauss_newton, Strategy::box_descent};
+  options.minimiser.finish = false;
+  options.minimiser.close_enough = 0.01;
+  options.parameters = 0.02;
+  options.scale = 0.01;
+  std::vector<double> theta = exact.theta;
+  for (int step = 0; step <= size_steps; ++step) {
+    const double before = prior.size;
+    prior.size = size_of_step(step);
+    const ImpactModel model = with_law_error(exact.model, prior, data.conditions());
+    // g stays where it was.
+    for (std::size_t j = exact.theta.size(); j < theta.size(); ++j) theta[j] *= before / prior.size;
+    theta.resize(model.slots.size(), 0.0);
+    ReweightedFit fit = reweighted_fit(model, data, noise, theta, options);
+    if (!fit.run.ended()) continue;
+    theta = fit.run.theta;
+    noise = fit.weights.noise;
+    found.push_back(
+        {prior, prior_weight, restricted_criterion(model, data, fit.run, fit.weights), theta});
+  }
+  return found;
+}
+
+FitResult fit_with(const FitResult& exact, const Screened& at, Observations data,
+                   const FitOptions& given) {
+  FitOptions options = given;
+  options.several_starts = false;
+  options.start = at.theta;
+  options.noise = exact.weights.noise;
+  options.noise->candidates.clear();
+  return fit(with_law_error(exact.model, at.prior, exact.data.conditions()), std::move(data),
+             options);
+}
+
+FitResult averaged_here(const ImpactModel& model, Observations&& data, const FitOptions& options) {
+  FitResult exact = fit(model, data, options);
+  if (!exact.usable || !exact.weights.noise.known || exact.covariance.empty()) return exact;
+  // The variance function is the one that exact laws select.
+  Observations same_noise = exact.data;
+  if (!data.noise.sd_stated) same_noise.noise.spec.variance = exact.weights.noise.variance;
+  std::vector<LawErrorPrior> kernels;
+  const std::size_t sizes = count_sizes(data);
+  for (const double length : lengths) {
+    kernels.push_back({0.0, length, false});
+    if (sizes > 1 && sizes <= most_sizes) kernels.push_back({0.0, length, true});
+  }
+  std::vector<std::vector<Screened>> screened(kernels.size());
+  const double each = 1.0 / static_cast<double>(kernels.size());
+  parallel_over(kernels.size(), options.threads, [&](std::size_t k) {
+    screened[k] = screen_kernel(exact, kernels[k], each, same_noise);
+  });
+  std::vector<Screened> all = {{{}, 1.0, exact.criterion, exact.theta}};
+  for (std::vector<Screened>& of_kernel : screened) {
+    std::move(of_kernel.begin(), of_kernel.end(), std::back_inserter(all));
+  }
+  const auto by_criterion = [](const Screened& a, const Screened& b) {
+    return a.criterion < b.criterion;
+  };
+  const double least = std::min_element(all.begin(), all.end(), by_criterion)->criterion;
+  std::vector<LawAlternative> laws;
+  double sum = 0.0;
+  for (const Screened& one : all) {
+    laws.push_back({one.prior, one.prior_weight * std::exp(-0.5 * (one.criterion - least)), {}});
+    sum += laws.back().weight;
+  }
+  for (LawAlternative& one : laws) one.weight /= sum;
+  const auto by_weight = [](const LawAlternative& a, const LawAlternative& b) {
+    return a.weight < b.weight;
+  };
+  const auto best = static_cast<std::size_t>(std::max_element(laws.begin(), laws.end(), by_weight) -
+                                             laws.begin());
+  parallel_over(laws.size(), options.threads, [&](std::size_t k) {
+    if (k == 0 || k == best || laws[k].weight < negligible) return;
+    FitResult other = fit_with(exact, all[k], same_noise, options);
+    if (other.usable) laws[k].fitted = std::make_shared<const FitResult>(std::move(other));
+  });
+  if (best == 0) {
+    exact.laws = std::move(laws);
+    return exact;
+  }
+  FitResult result = fit_with(exact, all[best], std::move(data), options);
+  if (!result.usable) {
+    exact.laws = std::move(laws);
+    return exact;
+  }
+  result.starts = exact.starts;
+  result.searched_points = exact.searched_points;
+  result.handovers += exact.handovers;
+  laws[0].fitted = std::make_shared<const FitResult>(std::move(exact));
+  result.laws = std::move(laws);
+  return result;
+}
+
+/// The size s below which the posterior has the probability p, between the steps by ln s.
+double quantile_of(const std::vector<double>& weights, double p) {
+  double below = weights[0];
+  if (p <= below) return 0.0;
+  for (int step = 0; step <= size_steps; ++step) {
+    const double own = weights[static_cast<std::size_t>(step) + 1];
+    if (p <= below + own) {
+      const double part = own > 0.0 ? (p - below) / own : 0.5;
+      return smallest_size *
+             std::pow(largest_size / smallest_size, (step - 0.5 + part) / size_steps);
+    }
+    below += own;
+  }
+  return largest_size;
+}
+
+}  // namespace
+
+FitResult fit_over_laws(const ImpactModel& model, Observations data, const FitOptions& options) {
+  return on_threads(options.threads,
+                    [&] { return averaged_here(model, std::move(data), options); });
+}
+
+FitResult fit_as_stated(const FitSpec& spec, const ImpactModel& model, Observations data,
+                        const FitOptions& options) {
+  return spec.uncertainty.materials == Materials::averaged
+             ? fit_over_laws(model, std::move(data), options)
+             : fit(model, std::move(data), options);
+}
+
+std::optional<LawErrorEstimate> law_error_of(const FitResult& fitted, double level) {
+  if (fitted.laws.empty()) return std::nullopt;
+  std::vector<double> weights(size_steps + 2, 0.0);  // exact, and every size
+  for (const LawAlternative& one : fitted.laws) {
+    std::size_t k = 0;
+    while (one.prior.size > 0.0 &&
+           std::abs(size_of_step(static_cast<int>(k)) - one.prior.size) > 1e-9) {
+      ++k;
+    }
+    weights[one.prior.size > 0.0 ? k + 1 : 0] += one.weight;
+  }
+  const double exact = weights[0];
+  LawErrorEstimate estimate;
+  estimate.exact_weight = exact;
+  estimate.lower = quantile_of(weights, 0.5 - level / 2.0);
+  estimate.upper = quantile_of(weights, estimate.seen() ? 0.5 + level / 2.0 : level);
+  estimate.median = quantile_of(weights, exact + 0.5 * (1.0 - exact));
+  return estimate;
+}
+
+bool LawAlternative::is_of(const FitResult& result) const {
+  const LawError* own = result.model.law_error.get();
+  return own == nullptr ? !(prior.size > 0.0) : own->prior() == prior;
+}
+
+const FitResult& with_laws_exact(const FitResult& fitted) {
+  for (const LawAlternative& one : fitted.laws) {
+    if (!(one.prior.size > 0.0) && one.fitted) return *one.fitted;
+  }
+  return fitted;
+}
+
+}  // namespace recoil
