@@ -10,6 +10,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "estimate/law_average.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/fit_alternatives.hpp"

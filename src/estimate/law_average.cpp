@@ -1,8 +1,10 @@
 #include "estimate/law_average.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -13,17 +15,11 @@
 namespace recoil {
 namespace {
 
-constexpr double smallest_size = 0.003;
-constexpr double largest_size = 0.1;
-constexpr int size_steps = 6;
-constexpr double lengths[] = {0.8, 1.6};
+constexpr std::array sizes_of_error = {0.015, 0.03, 0.06, 0.12};
+constexpr double exact_prior = 0.1;
+constexpr double short_length = 0.8, long_length = 1.6;
 constexpr std::size_t most_sizes = 12;  // sizes that may have an error each
 constexpr double negligible = 0.01;     // weight below which an assumption is left out
-
-double size_of_step(int step) {
-  return smallest_size *
-         std::pow(largest_size / smallest_size, static_cast<double>(step) / size_steps);
-}
 
 std::size_t count_sizes(const Observations& data) {
   std::set<std::pair<std::size_t, double>> sizes;
@@ -53,9 +49,8 @@ std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
   options.parameters = 0.02;
   options.scale = 0.01;
   std::vector<double> theta = exact.theta;
-  for (int step = 0; step <= size_steps; ++step) {
-    const double before = prior.size;
-    prior.size = size_of_step(step);
+  for (const double size : sizes_of_error) {
+    const double before = std::exchange(prior.size, size);
     const ImpactModel model = with_law_error(exact.model, prior, data.conditions());
     // g stays where it was.
     for (std::size_t j = exact.theta.size(); j < theta.size(); ++j) theta[j] *= before / prior.size;
@@ -89,16 +84,18 @@ FitResult averaged_here(const ImpactModel& model, Observations&& data, const Fit
   if (!data.noise.sd_stated) same_noise.noise.spec.variance = exact.weights.noise.variance;
   std::vector<LawErrorPrior> kernels;
   const std::size_t sizes = count_sizes(data);
-  for (const double length : lengths) {
-    kernels.push_back({0.0, length, false});
-    if (sizes > 1 && sizes <= most_sizes) kernels.push_back({0.0, length, true});
+  for (const double length : {short_length, long_length}) {
+    kernels.push_back({.length = length});
+    if (sizes > 1 && sizes <= most_sizes) kernels.push_back({.length = length, .by_size = true});
   }
+  kernels.push_back({.length = long_length, .at_capture = true});
   std::vector<std::vector<Screened>> screened(kernels.size());
-  const double each = 1.0 / static_cast<double>(kernels.size());
+  const double each =
+      (1.0 - exact_prior) / static_cast<double>(kernels.size() * sizes_of_error.size());
   parallel_over(kernels.size(), options.threads, [&](std::size_t k) {
     screened[k] = screen_kernel(exact, kernels[k], each, same_noise);
   });
-  std::vector<Screened> all = {{{}, 1.0, exact.criterion, exact.theta}};
+  std::vector<Screened> all = {{{}, exact_prior, exact.criterion, exact.theta}};
   for (std::vector<Screened>& of_kernel : screened) {
     std::move(of_kernel.begin(), of_kernel.end(), std::back_inserter(all));
   }
@@ -140,20 +137,18 @@ FitResult averaged_here(const ImpactModel& model, Observations&& data, const Fit
   return result;
 }
 
-/// The size s below which the posterior has the probability p, between the steps by ln s.
+/// The size s below which the posterior has the probability p. Each size stands for all within a
+/// factor of sqrt(2), the step of `sizes_of_error`, with equal density in ln s.
+/// @param weights of exact laws, then of every size
 double quantile_of(const std::vector<double>& weights, double p) {
-  double below = weights[0];
+  double below = weights.front();
   if (p <= below) return 0.0;
-  for (int step = 0; step <= size_steps; ++step) {
-    const double own = weights[static_cast<std::size_t>(step) + 1];
-    if (p <= below + own) {
-      const double part = own > 0.0 ? (p - below) / own : 0.5;
-      return smallest_size *
-             std::pow(largest_size / smallest_size, (step - 0.5 + part) / size_steps);
-    }
+  for (std::size_t k = 0; k < sizes_of_error.size(); ++k) {
+    const double own = weights[k + 1];
+    if (p <= below + own) return sizes_of_error[k] * std::exp2((p - below) / own - 0.5);
     below += own;
   }
-  return largest_size;
+  return sizes_of_error.back() * std::numbers::sqrt2;
 }
 
 }  // namespace
@@ -172,14 +167,11 @@ FitResult fit_as_stated(const FitSpec& spec, const ImpactModel& model, Observati
 
 std::optional<LawErrorEstimate> law_error_of(const FitResult& fitted, double level) {
   if (fitted.laws.empty()) return std::nullopt;
-  std::vector<double> weights(size_steps + 2, 0.0);  // exact, and every size
+  std::vector<double> weights(sizes_of_error.size() + 1, 0.0);
   for (const LawAlternative& one : fitted.laws) {
-    std::size_t k = 0;
-    while (one.prior.size > 0.0 &&
-           std::abs(size_of_step(static_cast<int>(k)) - one.prior.size) > 1e-9) {
-      ++k;
-    }
-    weights[one.prior.size > 0.0 ? k + 1 : 0] += one.weight;
+    const auto size = std::ranges::find(sizes_of_error, one.prior.size);
+    const bool exact = size == sizes_of_error.end();
+    weights[exact ? 0 : static_cast<std::size_t>(size - sizes_of_error.begin()) + 1] += one.weight;
   }
   const double exact = weights[0];
   LawErrorEstimate estimate;

@@ -9,12 +9,15 @@ namespace recoil {
 /// The fit averaged over how wrong the laws are.
 ///
 /// No law of an impact is exact, and how wrong it is, is not known before the fit. So the size of
-/// its error (`LawError`) has a prior: with equal probability the laws are exact, or wrong by s =
-/// 0.3, 0.54, 0.97, 1.7, 3.1, 5.6 or 10 % of the loss. (Equal steps of ln s, as nothing prefers a
-/// size; below 0.3 % no measured e of today shows the error, and an error above 10 % is another
-/// cause, which a diagnosis names.) The error bends over 0.8 or 1.6 in ln V, which is a factor of
-/// 2.2 or 5 in V, and sizes share it or have their own, with equal probability. A bend that is
-/// shorter is noise of the points, and one that is longer is a change of the dampings.
+/// its error (`LawError`) has a prior, which is written here before any data are seen:
+/// - the laws are exact with a probability of 10 %; else they are wrong by 1.5, 3, 6 or 12 % of the
+///   loss, equally likely: equal steps of ln s, as nothing prefers a size. Smaller errors are rare,
+///   as published laws of adhesion differ by more; larger ones are another cause, which a diagnosis
+///   names;
+/// - the error bends over 0.8 or 1.6 in ln V, a factor of 2.2 or 5 in V. A shorter bend is noise of
+///   the points, and a longer one is a change of the dampings;
+/// - sizes share it or have their own, or it belongs to slow impacts and falls as 1 / V^2. These
+///   five forms are equally likely.
 ///
 /// The points give every such assumption the weight of its restricted likelihood. The result is the
 /// fit under the likeliest; the others are in `FitResult::laws`, and intervals are averaged over

@@ -7,22 +7,23 @@
 namespace recoil {
 namespace {
 
-constexpr double left_out = 1e-3;  // part of the variance of g that its functions may miss
-constexpr double below = 1.0;      // reach of g below the slowest point, in ln V
+constexpr double left_out = 1e-3;    // part of the variance of g that its functions may miss
+constexpr double reach_below = 1.0;  // reach of g below the slowest point, in ln V
 
 }  // namespace
 
 LawError::LawError(const LawErrorPrior& prior, std::span<const PointConditions> points)
     : prior_(prior) {
   for (const PointConditions& point : points) {
-    sizes_.push_back({point.dataset, std::log(point.diameter), std::log(point.velocity) - below});
+    sizes_.push_back(
+        {point.dataset, std::log(point.diameter), std::log(point.velocity) - reach_below});
   }
   std::ranges::sort(sizes_, {}, [](const Size& one) { return std::pair(one.key(), one.slowest); });
   const auto same = [](const Size& a, const Size& b) { return a.key() == b.key(); };
   sizes_.erase(std::unique(sizes_.begin(), sizes_.end(), same), sizes_.end());
   std::vector<Place> places;
   for (std::size_t k = 0; k < sizes_.size(); ++k) {
-    for (const double by : {0.0, 0.5 * below}) {
+    for (const double by : {0.0, 0.5 * reach_below}) {
       places.push_back({sizes_[k].slowest + by, sizes_[k].log_diameter, k});
     }
   }
@@ -89,7 +90,14 @@ void LawError::functions(const PointConditions& at, std::span<double> phi) const
     for (std::size_t j = 0; j < k; ++j) rest -= row[j] * phi[j];
     phi[k] = rest / row[k];
   }
-  for (double& value : phi) value *= prior_.size;
+  for (double& value : phi) value *= prior_.size * decay(place);
+}
+
+double LawError::decay(const Place& at) const {
+  if (!prior_.at_capture) return 1.0;
+  constexpr double most = 4.0;
+  const double slowest = sizes_[at.size].slowest + reach_below;
+  return std::min(most, std::exp(2.0 * (slowest - at.log_velocity)));
 }
 
 double LawError::operator()(const PointConditions& at, std::span<const double> z) const {

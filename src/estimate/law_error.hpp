@@ -16,6 +16,8 @@ struct LawErrorPrior {
   double length = 1.0;   ///< correlation length of g in ln V [1]
   bool by_size = false;  ///< every size of every dataset has its own g; false: g is smooth in ln d
 
+  bool at_capture = false;  ///< g falls as 1 / V^2 from the slowest point of a size on
+
   bool operator==(const LawErrorPrior&) const = default;
 };
 
@@ -60,6 +62,7 @@ class LawError {
   };
   Place place_of(const PointConditions& at) const;
   double correlation(const Place& a, const Place& b) const;
+  double decay(const Place& at) const;
 
   LawErrorPrior prior_;
   std::vector<Size> sizes_;  ///< in ascending order of their keys

@@ -437,12 +437,17 @@ ImpactModel with_law_error(ImpactModel model, const LawErrorPrior& prior,
   }();
   model.law_error = std::make_shared<const LawError>(prior, points);
   for (std::size_t k = 0; k < model.law_error->count(); ++k) {
-    model.constants.push_back({.stated = 0.0, .sd = 1.0, .of_laws = true});
-    model.slots.push_back({.parameter = &coefficient,
-                           .lower = -widest,
-                           .upper = widest,
-                           .free = false,
-                           .adjusted = true});
+    UncertainConstant constant;
+    constant.sd = 1.0;
+    constant.of_laws = true;
+    model.constants.push_back(std::move(constant));
+    ParameterSlot slot;
+    slot.parameter = &coefficient;
+    slot.lower = -widest;
+    slot.upper = widest;
+    slot.free = false;
+    slot.adjusted = true;
+    model.slots.push_back(std::move(slot));
   }
   return model;
 }

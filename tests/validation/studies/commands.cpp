@@ -21,6 +21,7 @@
 #include "document/terminal.hpp"
 #include "validation/recipe/recipe.hpp"
 #include "validation/recipe/reconstruction.hpp"
+#include "validation/studies/bent_truth.hpp"
 #include "validation/studies/coverage_noise.hpp"
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/hidden_effects_tally.hpp"
@@ -50,7 +51,9 @@ struct Options {
   int datasets = 100;
   int replicates = 39;
   Words designs;
-  bool exact_materials = false;
+  bool exact_materials = false, adjust = false, propagate = false;
+  BentTruth bent;
+  std::string shape = "velocity";
 
   hidden::StudySize size;
   std::string only;
@@ -200,6 +203,33 @@ void study_designs(const Options& options) {
     add_design(study, specs[k], datasets[k], coverage_options(options, specs[k]), options.keep);
   }
   if (!wrote_part(options)) publish(options, study);
+}
+
+void study_laws(const Options& options) {
+  for (const std::string& file : options.fit_files) {
+    FitSpec spec = load_fit(file);
+    if (options.exact_materials) spec.uncertainty.materials = Materials::exact;
+    if (options.adjust) spec.uncertainty.materials = Materials::adjusted;
+    if (options.propagate) spec.uncertainty.materials = Materials::propagated;
+    const std::vector<Dataset> datasets = load_datasets(spec);
+    BentTruth bent = options.bent;
+    bent.shape = *value_named<BendShape>(options.shape);
+    FitSpec drawn = spec;  // constants are drawn whatever the fit assumes
+    drawn.uncertainty.materials = Materials::adjusted;
+    const CoverageResult result =
+        measure_coverage(spec, bent_truth(drawn, datasets, bent, spec.uncertainty.seed),
+                         coverage_options(options, spec));
+    fmt::print("{} error {} {} failed {}\n", spec.id, bent.amplitude, options.shape, result.failed);
+    for (const CoverageRow& row : result.rows) {
+      for (const CoverageCell& cell : row.cells) {
+        if (cell.offered == 0) continue;
+        if (cell.interval != "recommended" && cell.interval != "wald") continue;
+        fmt::print("  {:14} {:12} {:5.3f} of {:3}  width {:.3g} ({:.3g} of the truth)\n",
+                   row.parameter, cell.interval, 1.0 * cell.held / cell.offered, cell.offered,
+                   cell.median_width, cell.median_width / row.truth);
+      }
+    }
+  }
 }
 
 std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& orders,
@@ -372,6 +402,18 @@ void add_coverages(CLI::App& program, Options& options) {
   noise->callback([&options] {
     publish(options, study_noise(coverage_options(options, FitSpec{}), options.keep));
   });
+
+  CLI::App* laws = add_coverage(
+      program, "laws", "how often the intervals contain the truth where laws are wrong", options);
+  laws->add_option("FIT", options.fit_files, "fit files")->required();
+  laws->add_option("--error", options.bent.amplitude, "amplitude of the error of the loss");
+  laws->add_option("--shape", options.shape, "velocity, by_size or near_capture");
+  laws->add_option("--C_H", options.bent.C_H, "true C_H [s/m]");
+  laws->add_option("--C_A", options.bent.C_A, "true C_A [s/m]");
+  laws->add_flag("--exact-materials", options.exact_materials, "materials = false");
+  laws->add_flag("--adjust", options.adjust, "materials = \"adjust\"");
+  laws->add_flag("--propagate", options.propagate, "materials = true");
+  laws->callback([&options] { study_laws(options); });
 
   CLI::App* summary = program.add_subcommand(
       "coverage-summary", "one page and one picture of all studies of coverage in a folder");
