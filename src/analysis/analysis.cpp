@@ -123,10 +123,14 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   add_resampled_intervals(fitted, result.bootstrap, level, threads, result.intervals);
   add_resampled_captures(fitted, result.bootstrap, level, result.capture);
   const auto& points = fitted.data.points;
+  result.conditional = conditional_fit(fitted, level, threads);
+  // The calibration uses the stated constants and exact laws, and so does what it is compared with.
+  const FitResult& alike =
+      result.conditional && !fitted.laws.empty() ? result.conditional->fitted : fitted;
   if (std::any_of(points.begin(), points.end(), [](const Observation& p) { return !p.censored; })) {
-    result.two_point = compare_two_points(fitted);
+    result.two_point = compare_two_points(alike);
   }
-  add_comparison_rows(fitted, result.two_point);
+  add_comparison_rows(alike, result.two_point);
   bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
@@ -137,7 +141,6 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   result.odd_point = odd_point(fitted);
   result.budgets = parameter_budgets(fitted);
   result.capture_budgets = capture_budgets(fitted, result.capture);
-  result.conditional = conditional_fit(fitted, level, threads);
   result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
                                      {result.bootstrap.theta, level, threads});
   if (std::all_of(points.begin(), points.end(),

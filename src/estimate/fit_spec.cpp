@@ -80,11 +80,10 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "resampling scheme of the bootstrap"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
-      {"uncertainty", "materials", quoted("auto"),
-       "\"auto\": material constants are fitted too, with their stated errors as priors, and every "
-       "interval is averaged over how wrong the laws are; \"adjust\": the same with exact laws; "
-       "true: the fit uses the stated constants, and their errors widen every interval; false: "
-       "the constants are exact"},
+      {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
+       "true: the stated errors of material constants widen every interval; \"adjust\": the "
+       "constants are fitted too, with their stated errors as priors; \"auto\": the same, and every "
+       "interval is averaged over how wrong the laws are; false: the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
        "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},
       {"uncertainty", "own_design", "",

@@ -11,6 +11,7 @@
 #include "estimate/fit_spec.hpp"
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
+#include "estimate/model_verdict.hpp"
 #include "estimate/two_point.hpp"
 #include "impact/impact.hpp"
 #include "predict/validity.hpp"
@@ -283,10 +284,25 @@ struct FitFile {
       (Strategy, strategy, "the minimiser that found the answer: Ceres' trust region, "
        "Levenberg-Marquardt within bounds, or Gauss-Newton")) };
 
+  /// How wrong the laws are, if the fit was averaged over their error.
+  struct LawErrorFound { RECOIL_RESULT(
+      (bool, seen, "whether the points show an error: exact laws have a probability of at most 5 %"),
+      (double, probability_of_exact_laws, "posterior probability of exact laws", "1"),
+      (double, median, "median of the error if the laws are not exact, relative to the loss", "1"),
+      (double, lower, "lower end of its interval", "1"),
+      (double, upper, "upper end of its interval", "1")) };
+
+  /// Whether the model describes the points.
+  struct ModelVerdictFound { RECOIL_RESULT(
+      (ModelVerdict, verdict, "whether the model describes the points"),
+      (std::string, text, "the same in words"),
+      (OrNull<LawErrorFound>, law_error, "how wrong the laws are; null: taken as exact")) };
+
   struct Goodness { RECOIL_RESULT(
-      (OrReason<double>, chi2, "sum of the squared weighted residuals", "1"),
+      (OrReason<double>, chi2, "sum of the squared weighted residuals, with exact laws", "1"),
       (int, dof, "degrees of freedom", "", R"({"minimum": null})"),
-      (OrReason<double>, p_value, "p-value of chi2 under the stated errors", "1"),
+      (OrReason<double>, p_value, "p-value of chi2 under the stated errors of points and constants",
+       "1"),
       (OrReason<double>, minus_two_log_likelihood, "-2 ln of the density of e, with all constants",
        "1"),
       (OrReason<double>, rmse, "root mean square of e - e_model", "1"),
@@ -508,6 +524,7 @@ struct FitFile {
     (OrNull<Matrix>, correlation, "correlation of the free parameters", "1"),
     (Derived, derived, "quantities that follow from the parameters"),
     (SolverUse, solver, "solver and minimiser"),
+    (ModelVerdictFound, model_verdict, "whether the model describes the points"),
     (Goodness, goodness, "quality of the fit"),
     (Noise, noise, "noise of the points"),
     (Identifiable, identifiability, "what the points determine"),

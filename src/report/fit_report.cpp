@@ -17,6 +17,7 @@
 #include "report/words_fit.hpp"
 #include "report/words_restitution.hpp"
 #include "report/words_validity.hpp"
+#include "report/words_verdict.hpp"
 
 namespace recoil {
 namespace {
@@ -70,23 +71,6 @@ Sentence capture_words(const Analysis& a) {
   return say("Spheres {}.", join(parts, ", "));
 }
 
-/// Whether the model fits. A diagnosis allows for errors of the laws of the model, a fit does not.
-Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
-  if (diagnosis == nullptr || !a.fitted.data.noise.sd_stated) return quality_words(a.fitted);
-  if (!diagnosis->answer_if<Adequate>()) {
-    return a.fitted.noise_verdict == NoiseVerdict::exceeded ? quality_words(a.fitted)
-                                                            : "The model does not fit.";
-  }
-  if (a.fitted.noise_verdict == NoiseVerdict::exceeded && diagnosis->spec.law_error > 0.0) {
-    return say(
-        "The model fits if its laws are allowed an error of {}. With exact laws it does not fit: "
-        "the residuals are {} times the stated noise, and all intervals are widened by this "
-        "factor.",
-        percent(diagnosis->spec.law_error), number(a.fitted.noise_scale, 3));
-  }
-  return tests_the_curve(*diagnosis) ? "The model fits." : "These points cannot test the model.";
-}
-
 /// A warning about damping parameters at their upper bound.
 Sentence bound_words(const FitResult& f) {
   const std::vector<std::size_t> held = held_back_dampings(f);
@@ -108,7 +92,7 @@ Sentence odd_point_words(const Analysis& a) {
         say("{} = {}", symbol(slot.label()),
             Number{odd.without.theta[j], significant(3), odd.without.std_error[j]}.words()));
   }
-  std::string verdict = plain_text(quality_words(odd.without));
+  std::string verdict = plain_text(verdict_sentence(odd.without));
   verdict.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(verdict.front())));
   verdict.pop_back();  // the full stop
   return say(
@@ -279,7 +263,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     return {answer, warnings_section(a, warnings), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_words(a, diagnosis),
+  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted, diagnosis),
                                  capture_words(a), loss_words(a), odd_point_words(a)};
   std::erase(leads, Sentence());
   const RestitutionSummary summary = summarise_restitution(a.datasets);

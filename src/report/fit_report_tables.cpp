@@ -168,7 +168,7 @@ Table constants_table(const Analysis& a) {
                : "Material constants with uncertainty: their errors widen the intervals";
   table.columns = {{"constant", "", true}, {"stated"}};
   if (adjusted) table.columns.insert(table.columns.end(), {{"fitted"}, {"moved", "sd"}});
-  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+  for (std::size_t k = 0; k < model.material_count(); ++k) {
     const std::size_t j = model.first_constant() + k;
     const UncertainConstant& constant = model.constants[k];
     const double sd = constant.sd * (is_positive(constant.constant) ? constant.stated : 1.0);

@@ -15,6 +15,7 @@
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
 #include "report/words_validity.hpp"
+#include "report/words_verdict.hpp"
 
 namespace recoil {
 namespace {
@@ -89,7 +90,7 @@ FitFile::Options options_of(const Analysis& a) {
       .level = options.level,
       .seed = options.seed,
       .materials = a.spec.uncertainty.materials != Materials::exact,
-      .materials_adjusted = a.spec.uncertainty.materials == Materials::adjusted};
+      .materials_adjusted = a.fitted.model.adjusts_constants()};
   for (const ParameterSlot& slot : a.fitted.model.slots) {
     if (slot.is_constant()) continue;
     out.parameters.push_back(
@@ -216,7 +217,7 @@ Named<FitFile::Constant> constants_of(const Analysis& a) {
   Named<FitFile::Constant> all;
   const ImpactModel& model = a.fitted.model;
   if (a.fitted.theta.size() != model.slots.size()) return all;
-  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+  for (std::size_t k = 0; k < model.material_count(); ++k) {
     const UncertainConstant& constant = model.constants[k];
     const std::size_t j = model.first_constant() + k;
     FitFile::Constant& out = all.emplace_back(model.slots[j].label(), FitFile::Constant()).second;
@@ -303,9 +304,10 @@ OrReason<double> rmse_of(const FitResult& f) {
 
 FitFile::Goodness goodness_of(const FitResult& f) {
   const bool stated = f.data.noise.sd_stated;
-  return {.chi2 = {f.chi2, "the sum of squares is not finite"},
-          .dof = f.dof,
-          .p_value = {only_if(stated && f.dof > 0, f.p_value),
+  const FitResult& exact = with_laws_exact(f);
+  return {.chi2 = {exact.chi2, "the sum of squares is not finite"},
+          .dof = exact.dof,
+          .p_value = {judge_model(f).p_value,
                       stated ? "no degrees of freedom are left"
                              : "no standard deviations are stated: the noise is estimated from the "
                                "fit"},
@@ -316,6 +318,17 @@ FitFile::Goodness goodness_of(const FitResult& f) {
           .rmse = rmse_of(f),
           .noise_scale = {f.noise_scale, "the noise could not be estimated"},
           .noise_text = noise_words(f)};
+}
+
+FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
+  const ModelJudgement judged = judge_model(f);
+  FitFile::ModelVerdictFound out{judged.verdict, plain_text(verdict_sentence(f)), {}};
+  if (judged.laws) {
+    const LawErrorEstimate& laws = *judged.laws;
+    out.law_error = FitFile::LawErrorFound{laws.seen(), laws.exact_weight, laws.median, laws.lower,
+                                           laws.upper};
+  }
+  return out;
 }
 
 FitFile::Noise noise_of(const FitResult& f) {
@@ -692,6 +705,7 @@ std::string fit_json(const Analysis& a) {
     handovers += comparison.handovers;
   }
   out.solver = {f.model.solver.kind, handovers, f.ending, f.strategy};
+  out.model_verdict = model_verdict_of(f);
   out.goodness = goodness_of(f);
   out.noise = noise_of(f);
   out.identifiability = identifiability_of(a);

@@ -42,14 +42,8 @@ std::string variance_words(const FitResult& fitted) {
                             margin < clear ? ", not clearly" : "");
 }
 
-std::string why_noise_is_unknown(const FitResult& fitted) {
-  return fmt::format(
-      "no standard deviation is stated, and {}",
-      fitted.dof > 0 ? "the readings do not scatter" : "there are no more points than parameters");
-}
-
 std::string unknown_noise_words(const FitResult& fitted) {
-  return "unknown: " + why_noise_is_unknown(fitted);
+  return "unknown: " + unknown_noise_reason(fitted);
 }
 
 std::string verdict_words(const FitResult& fitted) {
@@ -315,29 +309,10 @@ Sentence point_words(const Observation& point) {
 
 Sentence equation_words(AdhesionLaw law) { return say(traits(law).description); }
 
-Sentence quality_words(const FitResult& f) {
-  if (!f.weights.noise.known) {
-    return say("The fit cannot be tested: its noise is not known ({}).", why_noise_is_unknown(f));
-  }
-  if (!f.data.noise.sd_stated) {
-    return say(
-        "The rms residual of {e} is {}; without stated standard deviations the fit cannot be "
-        "tested.",
-        number(f.rmse, 2));
-  }
-  if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
-  const std::string p = p_words(f.p_value);
-  if (f.p_value > 0.99) return say("The model fits; the points scatter less than stated ({}).", p);
-  if (f.p_value >= 0.05) return say("The model fits ({}).", p);
-  if (f.p_value >= 0.01) return say("The model barely fits ({}).", p);
-  if (f.noise_verdict == NoiseVerdict::exceeded) {
-    return say(
-        "The model does not fit: the residuals are {} times the stated noise ({}), and all "
-        "intervals are widened by this factor.",
-        number(f.noise_scale, 3), p);
-  }
-  return say("The model does not fit: chi-square is {} on {} degrees of freedom ({}).",
-             number(f.chi2, 4), f.dof, p);
+std::string unknown_noise_reason(const FitResult& fitted) {
+  return fmt::format(
+      "no standard deviation is stated, and {}",
+      fitted.dof > 0 ? "the readings do not scatter" : "there are no more points than parameters");
 }
 
 Sentence loss_words(const Analysis& a) {

@@ -13,8 +13,8 @@ namespace recoil {
 /// The equation of motion with its source.
 Sentence equation_words(AdhesionLaw law);
 
-/// Whether the model fits, with the p-value, or why this cannot be tested.
-Sentence quality_words(const FitResult& fitted);
+/// Why the noise of a fit is not known: "the readings do not scatter".
+std::string unknown_noise_reason(const FitResult& fitted);
 
 /// The law of loss with the smallest AICc, and how far the AICc of the others is above it; empty if
 /// no laws were compared.

@@ -288,6 +288,7 @@ std::string recommended_words(const CaptureEstimate& capture) {
       {bend, "V* is not linear in the parameters, as the delta method assumes"},
       {no_percentiles, "there are no percentiles: "},
       {spread_estimated, "the error includes that of the estimated spread of the impacts"},
+      {laws_averaged, "it is averaged over how wrong the laws may be"},
       {noise_estimated, "the error includes that of the estimated noise"}};
   if (!capture.because) return "";
   std::string words = phrase_for(reasons, *capture.because).words;
@@ -536,7 +537,7 @@ std::vector<Sentence> budget_sentences(const Analysis& a) {
 Sentence moved_words(const Analysis& a) {
   Sentences moved;
   const ImpactModel& model = a.fitted.model;
-  for (std::size_t k = 0; k < a.fitted.constants_moved.size(); ++k) {
+  for (std::size_t k = 0; k < model.material_count(); ++k) {
     const double by = a.fitted.constants_moved[k];
     if (std::abs(by) < 1.0) continue;
     moved.push_back(say("{} by {:+.1f}", constant_words(model, k, a.datasets), by));

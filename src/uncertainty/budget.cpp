@@ -80,13 +80,19 @@ class BudgetMaker {
       }
     }
     add(budget, {"spread", "the estimated spread of the impacts"}, spread);
+    double laws = 0.0;
     for (std::size_t k = 0; k < fitted_.model.constants.size(); ++k) {
       const double own =
           fitted_.constant_effects.empty()
               ? part(n + k)
               : std::inner_product(g.begin(), g.end(), fitted_.constant_effects[k].begin(), 0.0);
-      add(budget, {"", "", k}, own * own);
+      if (k < fitted_.model.material_count()) {
+        add(budget, {"", "", k}, own * own);
+      } else {
+        laws += own * own;
+      }
     }
+    add(budget, {"laws", "the error of the laws"}, laws);
     double variance = 0.0;
     for (const BudgetEntry& entry : budget.entries) variance += entry.sd * entry.sd;
     budget.sd = std::sqrt(variance);

@@ -13,7 +13,7 @@ namespace recoil {
 /// One row of a budget.
 struct BudgetEntry {
   /// "scatter", "spread" (uncertainty of the estimated scatter from impact to impact), "numerics"
-  /// (the solver's tolerance), or ErrorSource::names; empty for a constant.
+  /// (the solver's tolerance), "laws" (`LawError`), or ErrorSource::names; empty for a constant.
   std::string_view source = {};
   std::string_view words = {};               ///< the same for a sentence
   std::optional<std::size_t> constant = {};  ///< index into ImpactModel::constants

@@ -26,11 +26,12 @@ enum class CaptureBecause {
   bend,              ///< percentile: it includes the nonlinearity of V* in the parameters
   no_percentiles,    ///< delta, as there is no percentile interval
   spread_estimated,  ///< delta: its error includes that the spread of the impacts is estimated
+  laws_averaged,     ///< delta: it is averaged over the error of the laws
   noise_estimated,   ///< delta: it accounts for the few points that estimate the noise
 };
 constexpr auto names_of_values(CaptureBecause) {
   return name_list("no_delta", "at_bound", "bend", "no_percentiles", "spread_estimated",
-                   "noise_estimated");
+                   "laws_averaged", "noise_estimated");
 }
 
 /// The capture velocity of one (dataset, diameter).

@@ -21,7 +21,10 @@ std::vector<WaldTerm> capture_terms(const std::vector<FitAlternative>& alternati
     const CaptureVelocity v =
         own ? capture
             : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
-    if (!v.found || !(v.value > 0.0)) continue;
+    if (!v.found || !(v.value > 0.0)) {
+      terms.push_back({0.0, 0.0, 0.0, 0});
+      continue;
+    }
     terms.push_back({alternative.weight, std::log(v.value / capture.value),
                      logarithmic_error(v, other.covariance),
                      degrees_of_freedom(other, v.gradient)});
@@ -60,7 +63,7 @@ Interval delta_interval(const std::vector<FitAlternative>& alternatives,
   }
   interval.lower = capture.value * std::exp(*logarithm.lower);
   interval.upper = capture.value * std::exp(*logarithm.upper);
-  const double factor = undecided_factor(terms);
+  const double factor = undecided_factor(alternatives, terms);
   if (!interval.note && factor > undecided) interval.note = {Caution::undecided_noise, factor};
   return interval;
 }
@@ -123,13 +126,15 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   const bool spread = fitted.weights.noise.event_spread > 0.0;
   const Interval& delta = capture[CaptureIntervalKind::delta];
   const Interval& percentile = capture[CaptureIntervalKind::percentile];
-  const bool replicates =
-      (sd_stated && !spread && fitted.quantile_dof == 0) || at_bound || !delta.available();
+  // Replicates are drawn under one error of the laws, and only the delta interval averages over it.
+  const bool averaged = fitted.laws.size() > 1;
+  const bool replicates = !averaged && ((sd_stated && !spread && fitted.quantile_dof == 0) ||
+                                        at_bound || !delta.available());
   const auto quote = [&](const Interval& interval) {
     capture.interval = interval;
     capture.interval.note = delta.note;
   };
-  if (percentile.available() && replicates) {
+  if (percentile.available() && (replicates || !delta.available())) {
     capture.recommended = CaptureIntervalKind::percentile;
     capture.because = !delta.available() ? CaptureBecause::no_delta
                       : at_bound         ? CaptureBecause::at_bound
@@ -139,6 +144,7 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   }
   capture.recommended = CaptureIntervalKind::delta;
   capture.because = replicates  ? CaptureBecause::no_percentiles
+                    : averaged  ? CaptureBecause::laws_averaged
                     : sd_stated ? CaptureBecause::spread_estimated
                                 : CaptureBecause::noise_estimated;
   // If there is neither, state the reason for the missing percentile interval.

@@ -89,10 +89,14 @@ std::vector<WaldTerm> terms_of_slot(const std::vector<FitAlternative>& alternati
   return terms;
 }
 
-double undecided_factor(const std::vector<WaldTerm>& terms) {
+double undecided_factor(const std::vector<FitAlternative>& alternatives,
+                        const std::vector<WaldTerm>& terms) {
+  const LawError* const own = alternatives.front().fitted().model.law_error.get();
   double least = INFINITY;
   double most = 0.0;
-  for (const WaldTerm& term : terms) {
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const WaldTerm& term = terms[k];
+    if (alternatives[k].fitted().model.law_error.get() != own) continue;
     if (term.weight < plausible || !(term.std_error > 0.0)) continue;
     least = std::min(least, term.std_error);
     most = std::max(most, term.std_error);
