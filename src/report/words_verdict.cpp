@@ -61,10 +61,18 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
              number(f.chi2, 4), f.dof, p);
 }
 
-/// What a diagnosis adds: the cause, or that it found none.
-Sentence cause_sentence(const Diagnosis* diagnosis) {
-  if (diagnosis == nullptr || diagnosis->answer_if<Adequate>()) return {};
-  return say(" {}.", headline(*diagnosis));
+/// The verdict of a diagnosis on a fit that took the laws as exact; empty if it has none of its own.
+Sentence verdict_of_diagnosis(const FitResult& fitted, const Diagnosis& diagnosis) {
+  const bool rejected = fitted.noise_verdict == NoiseVerdict::exceeded;
+  if (!diagnosis.answer_if<Adequate>()) return rejected ? "" : "The model does not fit.";
+  if (rejected && diagnosis.spec.law_error > 0.0) {
+    return say(
+        "The model fits if its laws are allowed an error of {}. With exact laws it does not fit: "
+        "the residuals are {} times the stated noise, and all intervals are widened by this "
+        "factor.",
+        percent(diagnosis.spec.law_error), number(fitted.noise_scale, 3));
+  }
+  return tests_the_curve(diagnosis) ? "The model fits." : "These points cannot test the model.";
 }
 
 }  // namespace
@@ -80,13 +88,17 @@ Sentence law_error_words(const ModelJudgement& judged) {
 
 Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
   const ModelJudgement judged = judge_model(fitted);
+  if (diagnosis != nullptr && !judged.laws && fitted.data.noise.sd_stated) {
+    const Sentence own = verdict_of_diagnosis(fitted, *diagnosis);
+    if (!own.empty()) return own;
+  }
   const std::string p = judged.p_value ? p_words(*judged.p_value) : "";
   Sentence text;
   switch (judged.verdict) {
     case ModelVerdict::fits:
       text = *judged.p_value > 0.99
                  ? say("The model fits; the points scatter less than stated ({}).", p)
-                 : say("The model fits ({}).", p);
+                 : say("The model {} ({}).", *judged.p_value < 0.05 ? "barely fits" : "fits", p);
       break;
     case ModelVerdict::fits_with_moved_constants:
       text = say("The model fits ({}) within the errors of the materials: {}.", p,
@@ -104,7 +116,6 @@ Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
       break;
   }
   if (judged.laws && !judged.laws->seen()) text += say(" {}", law_error_words(judged));
-  text += cause_sentence(diagnosis);
   return text;
 }
 

@@ -21,10 +21,7 @@ std::vector<WaldTerm> capture_terms(const std::vector<FitAlternative>& alternati
     const CaptureVelocity v =
         own ? capture
             : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
-    if (!v.found || !(v.value > 0.0)) {
-      terms.push_back({0.0, 0.0, 0.0, 0});
-      continue;
-    }
+    if (!v.found || !(v.value > 0.0)) continue;
     terms.push_back({alternative.weight, std::log(v.value / capture.value),
                      logarithmic_error(v, other.covariance),
                      degrees_of_freedom(other, v.gradient)});
@@ -63,7 +60,8 @@ Interval delta_interval(const std::vector<FitAlternative>& alternatives,
   }
   interval.lower = capture.value * std::exp(*logarithm.lower);
   interval.upper = capture.value * std::exp(*logarithm.upper);
-  const double factor = undecided_factor(alternatives, terms);
+  const double factor =
+      undecided_factor(capture_terms(under_same_laws(alternatives), capture, dataset, diameter));
   if (!interval.note && factor > undecided) interval.note = {Caution::undecided_noise, factor};
   return interval;
 }

@@ -89,14 +89,21 @@ std::vector<WaldTerm> terms_of_slot(const std::vector<FitAlternative>& alternati
   return terms;
 }
 
-double undecided_factor(const std::vector<FitAlternative>& alternatives,
-                        const std::vector<WaldTerm>& terms) {
-  const LawError* const own = alternatives.front().fitted().model.law_error.get();
+std::vector<FitAlternative> under_same_laws(std::vector<FitAlternative> alternatives) {
+  const auto own = alternatives.front().fitted().model.law_error;
+  std::erase_if(alternatives, [&](const FitAlternative& alternative) {
+    return alternative.fitted().model.law_error != own;
+  });
+  double sum = 0.0;
+  for (const FitAlternative& alternative : alternatives) sum += alternative.weight;
+  for (FitAlternative& alternative : alternatives) alternative.weight /= sum;
+  return alternatives;
+}
+
+double undecided_factor(const std::vector<WaldTerm>& terms) {
   double least = INFINITY;
   double most = 0.0;
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const WaldTerm& term = terms[k];
-    if (alternatives[k].fitted().model.law_error.get() != own) continue;
+  for (const WaldTerm& term : terms) {
     if (term.weight < plausible || !(term.std_error > 0.0)) continue;
     least = std::min(least, term.std_error);
     most = std::max(most, term.std_error);

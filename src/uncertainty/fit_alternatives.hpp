@@ -30,11 +30,12 @@ std::vector<FitAlternative> noise_alternatives(const FitResult& fitted);
 /// The estimate of slot j under every alternative.
 std::vector<WaldTerm> terms_of_slot(const std::vector<FitAlternative>& alternatives, std::size_t j);
 
-/// The ratio of the largest to the smallest error among the alternatives of the noise with a weight
-/// of at least 0.05, between which the data cannot decide. 1 without a choice.
-/// @param terms of the alternatives
-double undecided_factor(const std::vector<FitAlternative>& alternatives,
-                        const std::vector<WaldTerm>& terms);
+/// Those that differ from the first only in the variance function of the noise.
+std::vector<FitAlternative> under_same_laws(std::vector<FitAlternative> alternatives);
+
+/// The ratio of the largest to the smallest error among the terms with a weight of at least 0.05,
+/// between which the data cannot decide. 1 without a choice.
+double undecided_factor(const std::vector<WaldTerm>& terms);
 
 /// Above this ratio an error depends on the assumed variance function, and the verdict states it.
 constexpr double undecided = 1.5;

@@ -132,7 +132,7 @@ Identifiability judge_identifiability(const FitResult& fitted,
     found.largest_relative_error = widened * found.relative_error;
     found.loss_scale = scales[j];
     if (!alternatives.empty()) {
-      found.noise_factor = undecided_factor(alternatives, terms_of_slot(alternatives, j));
+      found.noise_factor = undecided_factor(terms_of_slot(under_same_laws(alternatives), j));
     }
     found.hindrance = hindrance_of(fitted, j, interval, error, widened * error,
                                    std::max(std::abs(fitted.theta[j]), scales[j]));

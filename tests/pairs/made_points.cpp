@@ -366,6 +366,7 @@ std::string fit_of(const Choice& choice) {
   fit += fmt::format("[uncertainty]\nreplicates = 39\nown_design = false\nscheme = \"{}\"\n",
                      choice.at("scheme"));
   if (choice.at("materials") == "adjusted") fit += "materials = \"adjust\"\n";
+  if (choice.at("materials") == "averaged") fit += "materials = \"auto\"\n";
   return fit;
 }
 
@@ -386,7 +387,7 @@ const std::vector<Feature>& features() {
       {"series_diameter_sd", no_or_yes},
       {"setting", {"no", "estimated", "stated"}},
       {"launch", no_or_yes},
-      {"materials", {"exact", "propagated", "adjusted"}},
+      {"materials", {"exact", "propagated", "adjusted", "averaged"}},
       {"residuals", {"normal", "student"}},
       {"scheme", {"parametric", "residual", "wild", "case", "cluster"}},
       {"captures", {"none", "counted", "whole", "mixed", "counts"}}};

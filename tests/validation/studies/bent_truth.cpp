@@ -76,6 +76,52 @@ std::map<std::pair<std::size_t, double>, BentSize> sizes_of(
 
 }  // namespace
 
+std::vector<LawDesign> law_designs(const std::filesystem::path& fits) {
+  std::vector<LawDesign> designs;
+  for (const char* name : {"wall1990-molybdenum", "dahneke1975-quartz", "li1999-sst125-silicon"}) {
+    LawDesign design{name, load_fit(fits / (std::string(name) + ".toml")), {}};
+    for (const auto& folder : design.spec.datasets) design.datasets.push_back(load_dataset(folder));
+    designs.push_back(std::move(design));
+  }
+  designs.back().C_H = 1e-2;
+  Dataset two = designs.front().datasets.front();
+  two.id = "polystyrene-silica";
+  two.system.particle = {"polystyrene", 1050.0, 3.4e9, 0.33, std::nullopt};
+  two.system.surface = {"fused silica", 2200.0, 73e9, 0.17, std::nullopt};
+  two.system.stiffness_K.reset();
+  two.system.adhesion_force_f0.reset();
+  two.system.reference_diameter = 5e-6;
+  two.system.errors = {{Body::particle, Constant::youngs_modulus, 0.3e9}};
+  Dataset one = designs.front().datasets.front();
+  one.id = "ten-points";
+  const auto with_points = [&](const Dataset& empty, std::vector<double> diameters) {
+    LawDesign design{empty.id, designs.front().spec, {empty}};
+    Dataset& made = design.datasets.front();
+    made.points.clear();
+    const ImpactModel model = make_model(design.spec, design.datasets);
+    std::vector<double> theta = model.initial();
+    theta[model.slot_C_H[0]] = design.C_H;
+    theta[model.slot_C_A[0]] = design.C_A;
+    const Truth truth = truth_at(model, theta, 0);
+    for (const double diameter : diameters) {
+      const double capture = true_capture_velocity(truth, diameter);
+      for (const double over : {1.08, 1.2, 1.4, 1.8, 2.5, 4.0, 7.0, 12.0, 20.0, 30.0}) {
+        ImpactPoint point;
+        point.diameter = diameter;
+        point.incident_velocity = over * capture;
+        point.restitution = 0.5;
+        point.restitution_sd = 0.01;
+        made.points.push_back(point);
+      }
+    }
+    designs.push_back(std::move(design));
+  };
+  with_points(two, {2e-6, 5e-6});
+  with_points(one, {4.9e-6});
+  for (LawDesign& design : designs) design.spec.uncertainty.materials = Materials::averaged;
+  return designs;
+}
+
 CoverageTruth bent_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                          const BentTruth& bent, std::uint64_t seed) {
   const ImpactModel model = make_model(spec, datasets);

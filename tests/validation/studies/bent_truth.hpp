@@ -1,5 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "core/names.hpp"
 #include "coverage/coverage.hpp"
 #include "estimate/fit_spec.hpp"
@@ -27,6 +31,17 @@ struct BentTruth {
   BendShape shape = BendShape::velocity;
   double unstated_sd = 0.01;  ///< [1]
 };
+/// A design whose fits are averaged over the error of the laws.
+struct LawDesign {
+  std::string name;
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  double C_H = 3e-3, C_A = 3e-2;  ///< true [s/m]
+};
+/// Those of three shipped fits (in `fits`), of polystyrene of two sizes on fused silica, and of ten
+/// points of one size.
+std::vector<LawDesign> law_designs(const std::filesystem::path& fits);
+
 CoverageTruth bent_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                          const BentTruth& bent, std::uint64_t seed);
 
