@@ -110,6 +110,39 @@ void assess(Analysis& a, const UncertaintyOptions& options) {
                                      a.uncertainty.capture, options, datasets);
 }
 
+namespace {
+
+/// Completes values of the base parameters by the stated constants and exact laws.
+void complete(std::vector<double>& values, const ImpactModel& model, bool errors = false) {
+  if (values.empty()) return;
+  for (std::size_t j = values.size(); j < model.slots.size(); ++j) {
+    values.push_back(errors ? 0.0 : model.slots[j].initial);
+  }
+}
+
+/// The two-point calibrations and what they are compared with: fits with the stated constants and
+/// exact laws, like the calibration itself.
+std::vector<TwoPointComparison> comparisons_with(const FitResult& fitted,
+                                                 const std::optional<ConditionalFit>& exact) {
+  const FitResult& alike = exact && !fitted.laws.empty() ? exact->fitted : fitted;
+  const auto& points = fitted.data.points;
+  std::vector<TwoPointComparison> comparisons;
+  if (std::any_of(points.begin(), points.end(), [](const Observation& p) { return !p.censored; })) {
+    comparisons = compare_two_points(alike);
+  }
+  add_comparison_rows(alike, comparisons);
+  for (TwoPointComparison& comparison : comparisons) {
+    complete(comparison.result.theta, fitted.model);
+    for (ComparisonRow& row : comparison.rows) {
+      complete(row.theta, fitted.model);
+      complete(row.standard_errors, fitted.model, true);
+    }
+  }
+  return comparisons;
+}
+
+}  // namespace
+
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options) {
   const auto [level, threads] = std::pair(options.level, options.threads);
@@ -124,13 +157,7 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   add_resampled_captures(fitted, result.bootstrap, level, result.capture);
   const auto& points = fitted.data.points;
   result.conditional = conditional_fit(fitted, level, threads);
-  // The calibration uses the stated constants and exact laws, and so does what it is compared with.
-  const FitResult& alike =
-      result.conditional && !fitted.laws.empty() ? result.conditional->fitted : fitted;
-  if (std::any_of(points.begin(), points.end(), [](const Observation& p) { return !p.censored; })) {
-    result.two_point = compare_two_points(alike);
-  }
-  add_comparison_rows(alike, result.two_point);
+  result.two_point = comparisons_with(fitted, result.conditional);
   bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
