@@ -27,7 +27,13 @@ std::vector<std::size_t> inner_slots(const FitResult& fitted) {
   return inner;
 }
 
-/// The slots of the uncertain material constants.
+/// What turns a derivative in a slot into one in its logarithm; 1 for a coefficient of the error of
+/// the laws, which has no logarithm.
+double scale_of(const FitResult& fitted, std::size_t slot) {
+  return slot < fitted.model.first_law_slot() ? fitted.theta[slot] : 1.0;
+}
+
+/// The slots of the uncertain constants.
 std::vector<std::size_t> constant_slots(const FitResult& fitted) {
   std::vector<std::size_t> slots;
   for (std::size_t j = fitted.model.first_constant(); j < fitted.theta.size(); ++j) {
@@ -57,8 +63,9 @@ Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd
   Eigen::VectorXd errors(k);
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto constant = static_cast<std::size_t>(c);
-    const double value = fitted.theta[fitted.model.first_constant() + constant];
-    errors[c] = 1.0 / (value * fitted.model.constants[constant].deviation_slope(value));
+    const std::size_t slot = fitted.model.first_constant() + constant;
+    const double slope = fitted.model.constants[constant].deviation_slope(fitted.theta[slot]);
+    errors[c] = 1.0 / (scale_of(fitted, slot) * slope);
   }
   if (fitted.model.adjusts_constants()) {
     const double weight = fitted.weights.noise.constants_weight / fitted.noise_scale;
@@ -88,7 +95,7 @@ Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < inner.size(); ++k) {
       jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          full[i * p + inner[k]] * fitted.theta[inner[k]] / fitted.noise_scale;
+          full[i * p + inner[k]] * scale_of(fitted, inner[k]) / fitted.noise_scale;
     }
   }
   return jacobian;
