@@ -58,8 +58,10 @@ struct StatedNoise {
   int sd_set_aside = 0;   ///< points whose stated standard deviation is not used
   int sd_missing = 0;     ///< points with rebounds that state no sd while others do
   /// Sd of the rounding of e, q / sqrt(12) if all readings are multiples of q = 0.1, 0.01, ...
-  /// 1e-6; lower limit of an estimated sd [1]; 0: not rounded
+  /// 1e-6 [1]; 0: not rounded. It is the lower limit of an estimated sd, and adds to a stated one
+  /// that is smaller.
   double rounding_sd = 0.0;
+  int sd_rounded = 0;  ///< points to whose stated sd it was added
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
   /// Is the error that the points of one setting share estimated from them? By default if a dataset
   /// names its settings and some have several points.

@@ -220,6 +220,18 @@ double rounding_sd_of(const std::vector<Dataset>& datasets) {
   return coarsest / std::sqrt(12.0);
 }
 
+/// Adds the error of rounding to standard deviations that are smaller, as the digits of e show it.
+/// @return the number of these points
+int add_rounding(double rounding_sd, std::vector<Observation>& points) {
+  int changed = 0;
+  for (Observation& point : points) {
+    if (point.censored || !(point.sd < rounding_sd)) continue;
+    point.sd = std::hypot(point.sd, rounding_sd);
+    ++changed;
+  }
+  return changed;
+}
+
 }  // namespace
 
 Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
@@ -262,6 +274,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
     data.noise.sd_missing = stated > 0 ? missing : 0;
     if (!spec.student) number_bounces(datasets, data);
     complete_sd(data.points);
+    data.noise.sd_rounded = add_rounding(data.noise.rounding_sd, data.points);
   } else {
     data.noise.sd_set_aside = stated;
   }

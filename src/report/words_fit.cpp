@@ -346,6 +346,13 @@ std::string noise_words(const FitResult& fitted) {
     text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
                         100.0 * spread);
   }
+  if (const StatedNoise& stated = fitted.data.noise; stated.sd_rounded > 0) {
+    text += fmt::format(
+        "; e is rounded to {:g}, which adds an error of {:.2g} to the smaller standard deviations "
+        "stated for {}",
+        stated.rounding_sd * std::sqrt(12.0), stated.rounding_sd,
+        counted(stated.sd_rounded, "point"));
+  }
   text += setting_words(fitted);
   if (const auto& student = fitted.data.noise.student) {
     text += fmt::format("; Student's t residuals with {:g} degrees of freedom", student->dof);

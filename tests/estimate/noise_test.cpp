@@ -291,5 +291,36 @@ TEST(Noise, StatedErrorsNeedNoScatter) {
   EXPECT_GT(result.std_error[0], 0.0);
 }
 
+// Rounded to 0.01, e has an error of 0.0029 that a stated 0.002 does not include.
+TEST(Noise, RoundingAddsToSmallerStatedErrors) {
+  const double sd = 0.002;
+  int rejected = 0;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    Dataset data = design(24);
+    RandomStream random(5, RandomPurpose::coverage, k);
+    for (ImpactPoint& point : data.points) {
+      point.restitution = std::round(100.0 * (point.restitution + sd * random.normal())) / 100.0;
+      point.restitution_sd = sd;
+    }
+    const FitResult result = fit_to(data);
+    ASSERT_TRUE(result.usable) << result.failure;
+    EXPECT_EQ(result.data.noise.sd_rounded, 24);
+    EXPECT_NEAR(result.weights.points.front().sd, std::hypot(sd, 0.01 / std::sqrt(12.0)), 1e-12);
+    if (result.p_value < 0.05) ++rejected;
+  }
+  EXPECT_LE(rejected, 6);  // 2 of 40 expected; more than 6 have a probability of 0.3 %
+}
+
+TEST(Noise, CoarserStatedErrorsIncludeTheRounding) {
+  Dataset data = design(24);
+  for (ImpactPoint& point : data.points) {
+    point.restitution = std::round(100.0 * point.restitution) / 100.0;
+    point.restitution_sd = 0.005;
+  }
+  const FitResult result = fit_to(data);
+  EXPECT_EQ(result.data.noise.sd_rounded, 0);
+  EXPECT_EQ(result.weights.points.front().sd, 0.005);
+}
+
 }  // namespace
 }  // namespace recoil

@@ -198,8 +198,8 @@ bool within_bounds(const Interval& interval, const ParameterSlot& slot) {
   return *interval.lower > slot.lower + margin && *interval.upper < slot.upper - margin;
 }
 
-/// The largest ratio of two widths of one parameter. Percentiles of 39 replicates are their
-/// extremes, whose distance is 4.3 +- 0.7 standard deviations (1.5 times too short or long);
+/// The largest ratio of two widths of one parameter. Percentiles of 19 replicates are their
+/// extremes, whose distance is 3.7 +- 0.7 standard deviations (1.5 times too short or long);
 /// Student's t with five degrees of freedom widens Wald and profile 1.3 times; residuals of ten
 /// points and three parameters are 1.2 times too small; and skewness makes a factor of 1.7. Whole
 /// series or points are five to twelve units, whose spread is known to a further factor of two.
