@@ -13,24 +13,24 @@ namespace recoil {
 namespace {
 
 /// A steel sphere of 19 mm on concrete, K = (4/3) E*.
-constexpr double density = 7800.0;
+constexpr double ball_density = 7800.0;
 const double reduced_modulus =
     1.0 / ((1.0 - 0.3 * 0.3) / 2.1e11 + (1.0 - 0.2 * 0.2) / 3e10);  // E* [Pa]
-constexpr std::array velocities = {0.5, 1.0, 2.0, 4.0, 8.0};        // [m/s]
+constexpr std::array ball_velocities = {0.5, 1.0, 2.0, 4.0, 8.0};   // [m/s]
 
 Dataset drops(const std::array<double, 5>& restitution) {
   Dataset data;
   data.id = "drops";
-  data.system.particle = {"steel", density, 2.1e11, 0.3, std::nullopt};
+  data.system.particle = {"steel", ball_density, 2.1e11, 0.3, std::nullopt};
   data.system.surface = {"concrete", 0.0, 3e10, 0.2, std::nullopt};
   data.system.adhesion_energy = 0.0;
   data.series = {"drops"};
-  for (std::size_t k = 0; k < velocities.size(); ++k) {
+  for (std::size_t k = 0; k < ball_velocities.size(); ++k) {
     // Three readings that scatter by their stated deviation: mean square 1, mean 0.
     for (const double away : {-1.2247449, 0.0, 1.2247449}) {
       ImpactPoint point;
       point.diameter = 0.019;
-      point.incident_velocity = velocities[k];
+      point.incident_velocity = ball_velocities[k];
       point.restitution = restitution[k] + 0.003 * away;
       point.restitution_sd = 0.003;
       data.points.push_back(point);
@@ -54,7 +54,8 @@ double of_hunt_crossley(double x) {
 /// up to the yield and the one of a flattened Hertz contact.
 double of_yield(double pressure, double velocity) {
   const double y =
-      1.56 * std::sqrt(std::pow(pressure, 5) / (std::pow(reduced_modulus, 4) * density)) / velocity;
+      1.56 * std::sqrt(std::pow(pressure, 5) / (std::pow(reduced_modulus, 4) * ball_density)) /
+      velocity;
   if (y >= 1.0) return 1.0;
   return std::sqrt(1.2 * std::sqrt(3.0) * (1.0 - y * y / 6.0) *
                    std::sqrt(y / (y + 2.0 * std::sqrt(1.2 - y * y / 5.0))));
@@ -62,7 +63,7 @@ double of_yield(double pressure, double velocity) {
 
 std::array<double, 5> curve(double (*e)(double velocity)) {
   std::array<double, 5> values = {};
-  for (std::size_t k = 0; k < velocities.size(); ++k) values[k] = e(velocities[k]);
+  for (std::size_t k = 0; k < ball_velocities.size(); ++k) values[k] = e(ball_velocities[k]);
   return values;
 }
 

@@ -24,7 +24,7 @@ TEST(FitAlternatives, WeighAsTheirCriteriaDo) {
   ASSERT_TRUE(fitted.usable) << fitted.failure;
   const std::vector<FitAlternative> all = fit_alternatives(fitted);
   ASSERT_GE(all.size(), 2U);
-  EXPECT_EQ(all.front().fitted.theta, fitted.theta) << "the fit comes first";
+  EXPECT_EQ(all.front().fitted().theta, fitted.theta) << "the fit comes first";
   double sum = 0.0;
   for (const FitAlternative& alternative : all) {
     sum += alternative.weight;
