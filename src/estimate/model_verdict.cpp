@@ -29,8 +29,9 @@ ModelJudgement judge_model(const FitResult& fitted, double level) {
   judged.laws = law_error_of(fitted, level);
   judged.moved = farthest_constant(fitted);
   const bool stated = fitted.data.noise.sd_stated;
-  if (stated && exact.dof > 0) judged.p_value = exact.p_value;
-  if (!fitted.weights.noise.known || fitted.dof <= 0) return judged;
+  const bool has_p = stated && exact.dof > 0 && std::isfinite(exact.p_value);
+  if (has_p) judged.p_value = exact.p_value;
+  if (!fitted.weights.noise.known || fitted.dof <= 0 || has_p != stated) return judged;
   if (judged.laws && judged.laws->seen()) {
     const bool contradicted = stated && fitted.p_value < least_p;
     judged.verdict =

@@ -118,6 +118,7 @@ std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset
 std::string constant_words(const ImpactModel& model, std::size_t constant,
                            const std::vector<Dataset>& datasets) {
   const UncertainConstant& one = model.constants[constant];
+  if (one.of_laws) return "error of the laws";
   const ImpactSystem& system = datasets[one.datasets.front()].system;
   const std::string& name = one.body == Body::particle ? system.particle.name : system.surface.name;
   return fmt::format("{} of {}", words_of_constant(one.constant),

@@ -37,6 +37,7 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
     return say("The fit cannot be tested: its noise is not known ({}).", unknown_noise_reason(f));
   }
   if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
+  if (f.data.noise.sd_stated) return "The fit cannot be tested: chi-square is not known.";
   if (judged.laws) {
     return say(
         "The points do not contradict the model; as they state no standard deviations, only a "
