@@ -46,16 +46,13 @@ LawError::LawError(const LawErrorPrior& prior, std::span<const PointConditions> 
     columns.push_back(std::move(column));
     pivots_.push_back(places[pivot]);
   }
-  for (const Place& pivot : pivots_) {
-    const std::size_t row = factor_.size() / pivots_.size();
-    for (std::size_t k = 0; k < pivots_.size(); ++k) {
-      double rest = correlation(pivot, pivots_[k]);
-      for (std::size_t j = 0; j < std::min(row, k); ++j) {
-        rest -= factor_[row * pivots_.size() + j] * factor_[k * pivots_.size() + j];
-      }
-      factor_.push_back(k < row    ? rest / factor_[k * pivots_.size() + k]
-                        : k == row ? std::sqrt(rest)
-                                   : 0.0);
+  const std::size_t count = pivots_.size();
+  factor_.assign(count * count, 0.0);
+  for (std::size_t row = 0; row < count; ++row) {
+    for (std::size_t k = 0; k <= row; ++k) {
+      double rest = correlation(pivots_[row], pivots_[k]);
+      for (std::size_t j = 0; j < k; ++j) rest -= factor_[row * count + j] * factor_[k * count + j];
+      factor_[row * count + k] = k < row ? rest / factor_[k * count + k] : std::sqrt(rest);
     }
   }
 }
