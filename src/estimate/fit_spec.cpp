@@ -82,7 +82,8 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
       {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
        "true: the stated errors of material constants widen every interval; \"adjust\": the "
-       "constants are fitted too, with their stated errors as priors; \"auto\": the same, and every "
+       "constants are fitted too, with their stated errors as priors; \"auto\": the same, and "
+       "every "
        "interval is averaged over how wrong the laws are; false: the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
        "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},

@@ -61,7 +61,7 @@ struct StatedNoise {
   /// 1e-6 [1]; 0: not rounded. It is the lower limit of an estimated sd, and adds to a stated one
   /// that is smaller.
   double rounding_sd = 0.0;
-  int sd_rounded = 0;  ///< points to whose stated sd it was added
+  int sd_rounded = 0;                   ///< points to whose stated sd it was added
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
   /// Is the error that the points of one setting share estimated from them? By default if a dataset
   /// names its settings and some have several points.

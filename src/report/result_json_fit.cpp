@@ -325,8 +325,8 @@ FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
   FitFile::ModelVerdictFound out{judged.verdict, plain_text(verdict_sentence(f)), {}};
   if (judged.laws) {
     const LawErrorEstimate& laws = *judged.laws;
-    out.law_error = FitFile::LawErrorFound{laws.seen(), laws.exact_weight, laws.median, laws.lower,
-                                           laws.upper};
+    out.law_error =
+        FitFile::LawErrorFound{laws.seen(), laws.exact_weight, laws.median, laws.lower, laws.upper};
   }
   return out;
 }

@@ -62,7 +62,8 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
              number(f.chi2, 4), f.dof, p);
 }
 
-/// The verdict of a diagnosis on a fit that took the laws as exact; empty if it has none of its own.
+/// The verdict of a diagnosis on a fit that took the laws as exact; empty if it has none of its
+/// own.
 Sentence verdict_of_diagnosis(const FitResult& fitted, const Diagnosis& diagnosis) {
   const bool rejected = fitted.noise_verdict == NoiseVerdict::exceeded;
   if (!diagnosis.answer_if<Adequate>()) return rejected ? "" : "The model does not fit.";

@@ -59,8 +59,7 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     const std::vector<Dataset> datasets = truth.simulate(s);
     const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
     ASSERT_TRUE(fitted.usable) << fitted.failure;
-    const CaptureEstimate at =
-        capture_estimates(fit_alternatives(fitted), 0.95, datasets).front();
+    const CaptureEstimate at = capture_estimates(fit_alternatives(fitted), 0.95, datasets).front();
     const double off = std::log(at.value / truth.capture[0].velocity);
     const Interval& delta = at[CaptureIntervalKind::delta];
     const double error = std::log(*delta.upper / *delta.lower) / (2.0 * 1.959964);

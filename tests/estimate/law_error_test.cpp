@@ -175,7 +175,7 @@ TEST(LawAverage, SeesNoErrorOfExactLaws) {
     EXPECT_NEAR(sum, 1.0, 1e-12);
   }
   EXPECT_LT(upper, 0.05);  // on average; the prior reaches 0.17
-  EXPECT_LE(seen, 1);  // of 10; each is seen with a probability of at most 5 %
+  EXPECT_LE(seen, 1);      // of 10; each is seen with a probability of at most 5 %
 }
 
 TEST(LawAverage, MeasuresHowWrongTheLawsAre) {

@@ -363,8 +363,9 @@ std::string fit_of(const Choice& choice) {
   fit += "[noise]\n";
   if (choice.at("residuals") == "student") fit += "residuals = \"student\"\n";
   if (choice.at("setting") == "stated") fit += fmt::format("setting_sd = {}\n", sd);
-  fit += fmt::format("[uncertainty]\nreplicates = 19\nlevel = 0.9\nown_design = false\nscheme = \"{}\"\n",
-                     choice.at("scheme"));
+  fit += fmt::format(
+      "[uncertainty]\nreplicates = 19\nlevel = 0.9\nown_design = false\nscheme = \"{}\"\n",
+      choice.at("scheme"));
   if (choice.at("materials") == "adjusted") fit += "materials = \"adjust\"\n";
   if (choice.at("materials") == "averaged") fit += "materials = \"auto\"\n";
   return fit;

@@ -92,11 +92,10 @@ TEST(Bootstrap, ReplicatesAsPiecesGiveTheSameResult) {
   const UncertaintyResult whole = assess_uncertainty(c.fitted, c.datasets, options);
   UncertaintyOptions shared = options;
   shared.kept = std::make_shared<KeptRows>();
-  resumable(
-      bootstrap_pieces(c.fitted,
-                       capture_estimates(fit_alternatives(c.fitted), options.level, c.datasets),
-                       options),
-      *shared.kept);
+  resumable(bootstrap_pieces(
+                c.fitted, capture_estimates(fit_alternatives(c.fitted), options.level, c.datasets),
+                options),
+            *shared.kept);
   ASSERT_EQ(shared.kept->size(), static_cast<std::size_t>(options.replicates));
   const UncertaintyResult merged = assess_uncertainty(c.fitted, c.datasets, shared);
   EXPECT_EQ(merged.bootstrap.theta, whole.bootstrap.theta);
