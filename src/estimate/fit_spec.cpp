@@ -80,11 +80,11 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "resampling scheme of the bootstrap"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
-      {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
-       "true: the stated errors of material constants widen every interval; \"adjust\": the "
-       "constants are fitted too, with their stated errors as priors; \"auto\": the same, and "
-       "every "
-       "interval is averaged over how wrong the laws are; false: the constants are exact"},
+      {"uncertainty", "materials", quoted("auto"),
+       "\"auto\": the fit moves uncertain material constants within their stated errors, and every "
+       "result is averaged over how wrong the laws are; \"adjust\": the same with exact laws; true: "
+       "the constants stay where they are stated, and their errors widen every interval; false: "
+       "the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
        "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},
       {"uncertainty", "own_design", "",

@@ -87,7 +87,7 @@ struct UncertaintySpec {
   /// Number of simulated data sets of `own_design_coverage`; 0: none. Empty: the number that
   /// `own_design_datasets` gives.
   std::optional<int> own_design;
-  Materials materials = Materials::propagated;
+  Materials materials = Materials::averaged;
 };
 
 /// A fit file, validated: one member for each key. Every key but `dataset` has its default here or
