@@ -67,9 +67,6 @@ struct DmtLaw : HertzRadius {
   }
   static bool admits(const ImpactGroups&) { return true; }
   static bool vanishes(const ImpactGroups&) { return false; }
-  /// Not known without integration: a fast sphere can escape although small motions about the
-  /// bottom are overdamped, because the pull does not increase with the contact.
-  static bool overdamped(const ImpactGroups&) { return false; }
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
   static PlainForces forces(double q, double u, double acts, double alpha, double p, double gamma) {

@@ -3,8 +3,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "impact/creep_limit.hpp"
 #include "impact/fast_kernel.hpp"
 #include "impact/impact.hpp"
+#include "impact/law_lanes.hpp"
 #include "impact/laws.hpp"
 
 namespace recoil {
@@ -40,14 +42,28 @@ bool agrees_with(const FastKernel& baseline, const FastKernel& kernel) {
   return true;
 }
 
-/// Sets the result of a sphere that creeps into the well of `Law`: e^2 is twice the depth, which is
-/// proportional to beta^(5/2). Returns false for any other sphere.
+/// True if a sphere creeps into the well of `Law`, see CreepLimit. The ring and JKR laws know more.
+/// A sphere that does not reach the bottom on its way in is always pulled inward.
+template <class Law>
+bool creeps(const ImpactGroups& groups, const LawPath& path) {
+  if constexpr (requires { Law::overdamped(groups); }) {
+    return Law::overdamped(groups);
+  } else {
+    return CreepLimit<Law>(groups, path).is_certain(path.deepest, 0.0);
+  }
+}
+
+/// Sets the result of a sphere that creeps into the well of `Law`: e^2 is twice the depth. Returns
+/// false for any other sphere.
 template <class Law>
 bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
-  if (!Law::overdamped(groups)) return false;
-  result.outcome = ImpactOutcome::captured;
-  result.restitution_squared = 2.0 * Law::depth(groups);
-  result.gradient[1] = 2.5 * result.restitution_squared / groups.beta;
+  const LawPath path = Law::path_of(groups);
+  if (!creeps<Law>(groups, path)) return false;
+  LawLanes<Law, std::array<double, 1>> law;
+  law.set(0, groups);
+  if constexpr (Law::constants > 0) law.constants.back() = {0.0};
+  constexpr auto no_area = [](unsigned) { return 0.0; };
+  law.write(0, groups, path.resting, 0.0, true, no_area, result);
   return true;
 }
 

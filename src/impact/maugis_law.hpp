@@ -248,7 +248,6 @@ struct MaugisLaw {
   /// Adhesion is negligible at V beyond 1e10 V_a, or if the range of attraction is more than a
   /// million times the depth to which adhesion presses the bodies.
   static bool vanishes(const ImpactGroups& g) { return g.range < 1e-6 || g.beta < 1e-8; }
-  static bool overdamped(const ImpactGroups&) { return false; }  ///< not known, as under DmtLaw
   static double depth(const ImpactGroups& g) {
     return strength(g) * maugis_path(g.range).energy_at_rest;
   }

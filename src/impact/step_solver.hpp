@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "impact/creep_limit.hpp"
 #include "impact/dop853.hpp"
 #include "impact/force_law.hpp"
 #include "impact/impact.hpp"
@@ -63,7 +64,7 @@ class StepSolver {
   static constexpr double mu_tolerance = 10.0;
   static constexpr double smallest_step = 1e-9;
   static constexpr double smallest_fraction = 1e-3;  // of the distance to an event
-  static constexpr double most_steps = 3000.0;  // an impact takes 40; a creep into the well 1500
+  static constexpr double most_steps = 3000.0;       // an impact takes 40
 
   struct Step {
     Pack q, u, mu;
@@ -210,7 +211,11 @@ class StepSolver {
     const Mask turns = at_end && !turned_;
     turned_ = turned_ || turns;
     where(turns, acts_) = 1.0;
-    settled_ = turned_ && !event_step_ && !ended_ && energy(q_, u_) < settle_below_;
+    const Mask outward = turned_ && !event_step_ && !ended_;
+    settled_ = outward && energy(q_, u_) < settle_below_;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (outward[lane] && creep_[lane].is_certain(q_[lane], -u_[lane])) settled_[lane] = true;
+    }
     lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
   }
 
@@ -309,6 +314,7 @@ class StepSolver {
     fraction_[lane] = 1.0;
     steps_[lane] = 0.0;
     resting_q_[lane] = path.resting;
+    creep_[lane] = CreepLimit<Law>(groups, path);
     if constexpr (is_long) {
       settle_below_[lane] = (1.0 - settled_part) * Law::depth(groups);
       seam_[lane] = path.seam;
@@ -340,6 +346,7 @@ class StepSolver {
   Pack fraction_ = 0.0;                      // of the distance to the event, of the next event step
   Pack steps_ = 0.0;
   Pack resting_q_ = 0.0, settle_below_ = 0.0;
+  std::array<CreepLimit<Law>, lanes> creep_ = {};
   Mask busy_{false};
   Mask turned_{false};      // past the inner turning point
   Mask event_step_{false};  // the next step is an event step

@@ -206,7 +206,7 @@ TEST_P(EveryLaw, AgreesWithTheReferenceWithoutOneOfTheDampings) {
 }
 
 // Critical damping, (C_H + C_A) V_a = 2 (ring), 2 sqrt(9/10) (JKR): from there on the reference,
-// which knows of no shortcut, must find the same. DMT and Maugis's law have none.
+// which knows of no shortcut, must find the same.
 struct Creep {
   AdhesionLaw law;
   double critical;
@@ -233,6 +233,60 @@ TEST_P(EveryCreep, IsKnownWithoutFollowingIt) {
         EXPECT_EQ(fast.outcome, ImpactOutcome::captured);
         EXPECT_NEAR(fast.restitution_squared, reference.restitution_squared, 1e-9 / (w * w));
         EXPECT_NEAR(fast.gradient[1], reference.gradient[1], 1e-7);
+      }
+    }
+  }
+}
+
+// Strong damping of the adhesion, as the optimiser tries it under every law: a sphere that creeps
+// takes the reference seconds, or all of its steps. The values are C_A V of a fit with V from 1 to
+// 100 m/s and C_A up to its bound of 10 s/m, at work of adhesion from 1 to 3000 times its start.
+TEST_P(EveryLaw, HandsOverNothingToCreep) {
+  ImpactOptions options;
+  options.adhesion = GetParam();
+  options.gradient = true;
+  std::vector<ImpactGroups> impacts;
+  for (const double beta : {60.0, 8.0, 2.0, 0.5, 0.125, 0.04, 0.01, 1e-3}) {
+    for (const double gamma : {20.0, 60.0, 200.0, 350.0, 600.0, 1000.0}) {
+      for (const double alpha : {0.0, 0.2, 50.0}) {
+        for (const double lambda : {0.1, 1.7, 6.0, 20.0, 557.0}) {
+          impacts.push_back({alpha, beta, gamma, 0.0, lambda});
+        }
+      }
+    }
+  }
+  std::vector<ImpactResult> results(impacts.size());
+  EXPECT_EQ(simulate_impacts_fast(impacts, options, results), 0);
+  for (const ImpactResult& result : results) EXPECT_TRUE(result.usable());
+}
+
+class EveryBorderOfCreep : public testing::TestWithParam<AdhesionLaw> {};
+INSTANTIATE_TEST_SUITE_P(Adhesion, EveryBorderOfCreep,
+                         testing::Values(AdhesionLaw::dmt, AdhesionLaw::maugis),
+                         [](const auto& law) { return to_string(law.param); });
+
+// Where a fast sphere can leave an overdamped well, the answer is known only from a damping on
+// that grows with V. The reference must find the same on both sides of it.
+TEST_P(EveryBorderOfCreep, IsFollowedBelowAndKnownAbove) {
+  ImpactOptions options;
+  options.adhesion = GetParam();
+  for (const double w : {0.5, 1.0, 10.0, 100.0}) {
+    for (const double share : {0.0, 0.5}) {
+      for (const double lambda : {0.3, 5.0}) {
+        const auto groups = [&](double damping) {
+          return ImpactGroups{share * damping * w, std::pow(w, -0.8), (1.0 - share) * damping * w,
+                              0.0, lambda};
+        };
+        double followed = 0.1, known = 1e3;
+        while (known > 1.0001 * followed) {
+          const double middle = std::sqrt(followed * known);
+          const bool by_steps = simulate_impact_fast(groups(middle), options).steps > 0;
+          (by_steps ? followed : known) = middle;
+        }
+        compare(groups(0.98 * known), AdhesionDampingPhase::rebound, GetParam());
+        compare(groups(1.02 * known), AdhesionDampingPhase::rebound, GetParam());
+        EXPECT_EQ(simulate_impact_fast(groups(1.02 * known), options).outcome,
+                  ImpactOutcome::captured);
       }
     }
   }
