@@ -50,19 +50,27 @@ constant. The constants enter the dataset with their errors.
   recoil import drops.csv --format heights --into ball --particle steel --surface glass ...
   recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70)",
       [](const GivenOptions&) {
-        print_text("{:<16}{:>16}{:>20}{:>18}  {}\n", "name", "density [kg/m3]", "E [GPa]", "nu",
-                   "");
+        print_text("{:<22}{:>16}{:>20}{:>18}{:>9}  {}\n", "name", "density [kg/m3]", "E [GPa]",
+                   "nu", "Y [MPa]", "");
         for (const TabledMaterial& one : tabled_materials()) {
-          print_text("{:<16}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}  {}\n",
-                     one.name, one.density, tabled_density_error * one.density,
-                     one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
-                     one.poisson_ratio, one.poisson_ratio_sd, one.what);
+          print_text(
+              "{:<22}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}{:>9}  {}\n",
+              one.name, one.density, tabled_density_error * one.density,
+              one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
+              one.poisson_ratio, one.poisson_ratio_sd,
+              one.yield_strength > 0.0 ? fmt::format("{:.4g}", 1e-6 * one.yield_strength)
+                                       : std::string("-"),
+              one.what);
         }
         print_text(
             "Source: {}.\n"
             "Errors are one standard deviation: a range of Young's modulus is taken as uniform. "
-            "For a single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed.\n",
+            "For a single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed. Y is the "
+            "yield strength in this state; another state of a metal has another one.\n",
             tabled_materials_source);
+        for (const TabledMaterial& one : tabled_materials()) {
+          if (one.source != tabled_materials_source) print_text("{}: {}.\n", one.name, one.source);
+        }
       });
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,29 +14,60 @@ namespace recoil {
 namespace {
 
 using units::GPa;
+constexpr double MPa = 1e-3 * GPa;
 
-constexpr std::array<TabledMaterial, 20> materials = {{
+constexpr TabledMaterial materials[] = {
     {"alumina", "99.9 % pure", 3980.0, 380.0 * GPa, 380.0 * GPa, 0.22},
-    {"aluminium", "alloy 6061", 2700.0, 69.0 * GPa, 69.0 * GPa, 0.33},
+    {"aluminium", "alloy 6061, T6", 2700.0, 69.0 * GPa, 69.0 * GPa, 0.33, 0.01, 276.0 * MPa},
+    {.name = "ammonium-fluorescein",
+     .density = 1350.0,
+     .lowest_modulus = 1.2 * GPa,
+     .highest_modulus = 1.2 * GPa,
+     .poisson_ratio = 0.33,
+     .source = "Li, X., Dunn, P. F. & Brach, R. M. (1999). J. Aerosol Sci. 30, 439-449, table 1, "
+               "whose K and W_A these constants give; density after Pasha, M. et al. (2014). "
+               "Granular Matter, doi 10.1007/s10035-013-0476-y"},
     {"borosilicate", "Pyrex glass", 2230.0, 70.0 * GPa, 70.0 * GPa, 0.20},
-    {"brass", "C26000", 8530.0, 110.0 * GPa, 110.0 * GPa, 0.35},
+    {"brass", "C26000, annealed", 8530.0, 110.0 * GPa, 110.0 * GPa, 0.35, 0.01, 112.5 * MPa},
     {"concrete", "of all strengths", 2400.0, 25.4 * GPa, 36.6 * GPa, 0.20},
-    {"copper", "C11000", 8890.0, 115.0 * GPa, 115.0 * GPa, 0.33},
+    {"copper", "C11000, hot rolled", 8890.0, 115.0 * GPa, 115.0 * GPa, 0.33, 0.01, 69.0 * MPa},
     {"fused-silica", "", 2200.0, 73.0 * GPa, 73.0 * GPa, 0.17},
     {"glass", "soda-lime", 2500.0, 69.0 * GPa, 69.0 * GPa, 0.23},
-    {"nylon", "6,6, dry to moist", 1140.0, 1.59 * GPa, 3.79 * GPa, 0.39},
-    {"pmma", "acrylic glass", 1190.0, 2.24 * GPa, 3.24 * GPa, 0.405, 0.02},
-    {"polycarbonate", "", 1200.0, 2.38 * GPa, 2.38 * GPa, 0.36},
-    {"polystyrene", "", 1050.0, 2.28 * GPa, 3.28 * GPa, 0.33},
-    {"ptfe", "", 2170.0, 0.40 * GPa, 0.55 * GPa, 0.46},
+    {.name = "ice",
+     .what = "polycrystal at 257 K",
+     .density = 917.0,
+     .lowest_modulus = 9.33 * GPa,
+     .highest_modulus = 9.33 * GPa,
+     .poisson_ratio = 0.325,
+     .source = "Gammon, P. H., Kiefte, H., Clouter, M. J. & Denner, W. W. (1983). J. Glaciol. 29, "
+               "433-460; density after the CRC Handbook of Chemistry and Physics"},
+    {"molybdenum", "commercially pure", 10220.0, 320.0 * GPa, 320.0 * GPa, 0.32, 0.01, 500.0 * MPa},
+    {"nickel", "alloy 200, annealed", 8890.0, 204.0 * GPa, 204.0 * GPa, 0.31, 0.01, 148.0 * MPa},
+    {"nylon", "6,6, dry to moist", 1140.0, 1.59 * GPa, 3.79 * GPa, 0.39, 0.01, 63.8 * MPa},
+    {"pmma", "acrylic glass", 1190.0, 2.24 * GPa, 3.24 * GPa, 0.405, 0.02, 63.45 * MPa},
+    {"polycarbonate", "", 1200.0, 2.38 * GPa, 2.38 * GPa, 0.36, 0.01, 62.1 * MPa},
+    {"polyethylene", "of high density", 959.0, 1.08 * GPa, 1.08 * GPa, 0.46, 0.01, 29.65 * MPa},
+    {"polystyrene", "", 1050.0, 2.28 * GPa, 3.28 * GPa, 0.33, 0.01, 47.0 * MPa},
+    {"ptfe", "", 2170.0, 0.40 * GPa, 0.55 * GPa, 0.46, 0.01, 14.5 * MPa},
+    {.name = "rubber",
+     .what = "natural, unfilled",
+     .density = 925.0,
+     .lowest_modulus = 1.5 * MPa,
+     .highest_modulus = 2.5 * MPa,
+     .poisson_ratio = 0.49,
+     .source = "Ashby, M. F. (2011). Materials Selection in Mechanical Design, 4th ed., "
+               "Butterworth-Heinemann, appendix A; rubber is almost incompressible"},
     {"silicon", "single crystal, along [100]", 2330.0, 129.0 * GPa, 129.0 * GPa, 0.28},
     {"silicon-carbide", "sintered", 3200.0, 207.0 * GPa, 483.0 * GPa, 0.16},
-    {"stainless", "alloy 304", 8000.0, 193.0 * GPa, 193.0 * GPa, 0.30},
-    {"stainless-440", "alloy 440A, of balls", 7800.0, 200.0 * GPa, 200.0 * GPa, 0.30},
-    {"steel", "alloy 4140", 7850.0, 207.0 * GPa, 207.0 * GPa, 0.30},
-    {"titanium", "Ti-6Al-4V", 4430.0, 114.0 * GPa, 114.0 * GPa, 0.34},
+    {"stainless", "alloy 304, annealed", 8000.0, 193.0 * GPa, 193.0 * GPa, 0.30, 0.01, 205.0 * MPa},
+    {"stainless-316", "alloy 316, annealed", 8000.0, 193.0 * GPa, 193.0 * GPa, 0.30, 0.01,
+     205.0 * MPa},
+    {"stainless-440", "alloy 440A, of balls, tempered", 7800.0, 200.0 * GPa, 200.0 * GPa, 0.30,
+     0.01, 1650.0 * MPa},
+    {"steel", "alloy 4140, normalised", 7850.0, 207.0 * GPa, 207.0 * GPa, 0.30, 0.01, 655.0 * MPa},
+    {"titanium", "Ti-6Al-4V, annealed", 4430.0, 114.0 * GPa, 114.0 * GPa, 0.34, 0.01, 830.0 * MPa},
     {"zirconia", "3 mol% yttria", 6000.0, 205.0 * GPa, 205.0 * GPa, 0.31},
-}};
+};
 
 }  // namespace
 
@@ -49,20 +79,27 @@ double TabledMaterial::youngs_modulus_sd() const {
 
 std::span<const TabledMaterial> tabled_materials() { return materials; }
 
+std::string_view source_of_tabled(std::string_view name) {
+  const auto found = std::ranges::find(materials, name, &TabledMaterial::name);
+  return found == std::end(materials) ? std::string_view() : found->source;
+}
+
 Json tabled_material(const std::string& name, const std::string& option) {
   const auto found = std::ranges::find(materials, name, &TabledMaterial::name);
-  if (found == materials.end()) {
+  if (found == std::end(materials)) {
     std::vector<std::string> names;
     for (const TabledMaterial& one : materials) names.emplace_back(one.name);
     throw InputError(
         {}, fmt::format("{} {} is no file and no material of the table", option, quote(name)),
         "recoil materials lists them", did_you_mean(name, names));
   }
-  return {
+  Json json = {
       {"material", name},
       {"density", {{"value", found->density}, {"relative_sd", tabled_density_error}}},
       {"youngs_modulus", {{"value", found->youngs_modulus()}, {"sd", found->youngs_modulus_sd()}}},
       {"poisson_ratio", {{"value", found->poisson_ratio}, {"sd", found->poisson_ratio_sd}}}};
+  if (found->yield_strength > 0.0) json["yield_strength"] = found->yield_strength;
+  return json;
 }
 
 }  // namespace recoil

@@ -365,8 +365,8 @@ std::string imported_package(const ImportRequest& request, const Json& system,
         !parts.empty() && !split_pair(parts.front()) && !parts.front().ends_with(".json");
     if (!named) continue;
     package["sources"].push_back(
-        {{"title", fmt::format("{}. Constants of the {}, {}.", tabled_materials_source, body,
-                               parts.front())}});
+        {{"title", fmt::format("{}. Constants of the {}, {}.", source_of_tabled(parts.front()),
+                               body, parts.front())}});
   }
   const Json resource =
       csv_resource("points", existing ? existing->points_path : "points.csv", points.fields);

@@ -17,6 +17,9 @@ using std::numbers::pi;
 constexpr double largest_contact = 0.3;   // a / R
 constexpr double largest_pressure = 0.3;  // p_0 / E*
 constexpr double yield_share = 0.03;      // yield pressure over E if the strength is not stated
+// Yield begins below the surface at p_0 = 1.6 Y (Johnson 1985, section 6.1); a contact flows at 2.8
+// Y.
+constexpr double first_yield = 1.6 / 2.8;
 constexpr double least_tabor = 5.0;
 constexpr double least_transits = 5.0;
 
@@ -126,7 +129,7 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   const bool elastomer = system.particle.is_elastomer() || system.surface.is_elastomer();
   if (!yields(model) && !elastomer) {
     const auto yield_of = [](const Material& body) {
-      return body.yield_pressure().value_or(yield_share * body.youngs_modulus);
+      return first_yield * body.yield_pressure().value_or(yield_share * body.youngs_modulus);
     };
     const Material& first =
         yield_of(system.particle) < yield_of(system.surface) ? system.particle : system.surface;

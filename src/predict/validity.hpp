@@ -18,10 +18,11 @@ enum class ValidityQuantity {
   /// modulus (Frenkel 1926, Z. Phys. 37, 572-609), and a contact flows at 2.8 times the yield
   /// stress (Tabor 1951, The Hardness of Metals): limit 0.3.
   pressure_modulus,
-  /// p_0 over the pressure at which the weaker of the two bodies yields:
-  /// `Material::yield_pressure`, or 0.03 E if its strength is not stated (ammonium fluorescein has
-  /// 35.3 MPa for E = 1.2 GPa, polystyrene about 100 MPa for 2.56 GPa, metals a third of this ratio
-  /// or less). Omitted if a mechanism of the fit lets the contact yield. Limit 1.
+  /// p_0 over the pressure at which the weaker of the two bodies begins to yield, 1.6 Y (Johnson
+  /// 1985, section 6.1). Y is 1 / 2.8 of `Material::yield_pressure`, or, as an estimate, of 0.03 E
+  /// if no strength is stated (ammonium fluorescein has 35.3 MPa for E = 1.2 GPa, polystyrene about
+  /// 100 MPa for 2.56 GPa, metals a third of this ratio or less). Omitted if a mechanism of the fit
+  /// lets the contact yield. Limit 1.
   pressure_yield,
   /// mu = (R W^2 / (E*^2 z_0^3))^(1/3), z_0 = 0.4 nm, with W from f0 by eq. 12 (Tabor 1977).
   /// Adhesion acts inside the contact (JKR) above about 5 and around it (DMT) below 0.1 (Johnson &
@@ -48,7 +49,7 @@ struct Validity {
   std::size_t dataset = 0;
   double diameter = 0.0;        ///< diameter of the sphere [m]
   double velocity = 0.0;        ///< [m/s]
-  double yield_pressure = 0.0;  ///< yield pressure used for `pressure_yield` [Pa]
+  double yield_pressure = 0.0;  ///< of first yield, used for `pressure_yield` [Pa]
   bool yield_stated = false;    ///< true: from the stated hardness or yield strength of the body
 
   /// Must the value be above the limit (true) or below it (false)?

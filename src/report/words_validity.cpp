@@ -31,7 +31,7 @@ const char* short_name(ValidityQuantity quantity) {
   static constexpr Phrase<ValidityQuantity> phrases[] = {
       {contact_radius, "contact radius over that of the sphere"},
       {pressure_modulus, "peak pressure over E*"},
-      {pressure_yield, "peak pressure over the yield pressure"},
+      {pressure_yield, "peak pressure over that of first yield"},
       {tabor, "Tabor parameter"},
       {wave_transits, "contact time over a wave's transit"}};
   return phrase_for(phrases, quantity).words;
@@ -49,8 +49,8 @@ std::string validity_sentence(const Validity& v) {
        "the peak pressure is {value:.2g} E* ({impact}); no solid withstands more than about "
        "{limit:g} E*"},
       {pressure_yield,
-       "the peak pressure is {value:.2g} times the yield pressure of {yield}, {source} ({impact}); "
-       "above {limit:g} the contact yields, which the base model ignores"},
+       "the peak pressure is {value:.2g} times the pressure of first yield, {yield}, {source} "
+       "({impact}); above {limit:g} the contact yields, which the base model ignores"},
       {tabor, "the Tabor parameter is {value:.2g} ({diameter}): {tabor}"},
       {wave_transits,
        "a wave crosses the sphere {value:.2g} times in one contact ({impact}); below {limit:g} the "
@@ -61,7 +61,8 @@ std::string validity_sentence(const Validity& v) {
                      fmt::arg("diameter", diameter_words(v.diameter)),
                      fmt::arg("yield", pressure_words(v.yield_pressure)),
                      fmt::arg("source", v.yield_stated ? "by the stated strength"
-                                                       : "taken as 0.03 E of the softer body"),
+                                                       : "an estimate, 0.017 E of the softer body, "
+                                                         "since no strength is stated"),
                      fmt::arg("tabor", tabor_words(v)));
 }
 
