@@ -314,7 +314,7 @@ Dimension dimension_of(Quantity quantity) {
   static constexpr std::array<Dimension, count_of<Quantity>> dimensions = {
       text,        length, velocity, ratio, velocity, ratio, velocity, length,
       length,      count,  count,    text,  velocity, text,  pressure, ratio,
-      temperature, length, length,   count, length,   count, count};
+      temperature, length, length,   count, length,   count, count,    length};
   return dimensions[static_cast<std::size_t>(quantity)];
 }
 

@@ -45,6 +45,7 @@ enum class Quantity {
   surface_rms_roughness,
   velocities_calibrated,
   sizes_calibrated,
+  film_thickness,
 };
 constexpr auto names_of_values(Quantity) {
   constexpr auto own =

@@ -75,6 +75,7 @@ inline constexpr Range temperature{50.0, 2000.0, "K", "give it in K: 20 degrees 
 inline constexpr Range height{0.0, 10.0, "m", "give it in m: 1 mm is 1e-3 m"};
 inline constexpr Range thickness{1e-9, 10.0, "m", "give it in m: 1 mm is 1e-3 m"};
 inline constexpr Range roughness{0.0, 1e-3, "m", "give it in m: 1 nm is 1e-9 m"};
+inline constexpr Range film{0.0, 0.1, "m", "give it in m: 1 um is 1e-6 m", "0 means dry"};
 inline constexpr Range humidity{0.0, 1.0, "1", "50 % is written 0.5"};
 
 }  // namespace limits

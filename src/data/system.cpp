@@ -192,6 +192,8 @@ const ConditionInfo& info_of(Condition condition) {
       {{0.0, 1.0, "1", "1 means checked, 0 that they were not"},
        "1 where the diameters were checked against a standard, else 0",
        true},
+      {limits::film,
+       "thickness of a liquid film, on sphere and surface together; 0 where both are dry"},
   }};
   return all[static_cast<std::size_t>(condition)];
 }

@@ -174,9 +174,12 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
     const bool is_new = std::ranges::find(own, mechanism.info.id) == own.end();
     // If the sizes are stated, a mechanism for mixed sizes has nothing to explain.
     const bool acts = std::ranges::any_of(model.surroundings, [&](const Surroundings& at) {
-      return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
+      return mechanism.is_possible_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
     });
-    if (is_new && acts && mechanism.works_with(spec.adhesion)) possible.push_back(&mechanism);
+    if (is_new && acts && mechanism.works_with(spec.adhesion) &&
+        rival_among(own, mechanism.info.id) == nullptr) {
+      possible.push_back(&mechanism);
+    }
   }
   return possible;
 }

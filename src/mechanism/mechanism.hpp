@@ -70,13 +70,17 @@ struct MechanismInfo {
   /// True if its strength is a multiple of the dataset's work of adhesion, so that it has no effect
   /// if that is 0.
   bool needs_adhesion = false;
-  bool needs_flow = false;  ///< it has no effect if a body is an elastomer, which does not yield
+  bool needs_flow = false;    ///< it has no effect if a body is an elastomer, which does not yield
+  bool needs_liquid = false;  ///< a search for causes needs a stated liquid film
   /// The methods of measurement in which it can occur; empty: all.
   std::vector<Method> methods = {};
   std::optional<TakenAway> taken_away = {};  ///< the condition that removes it, if there is one
   /// The reason why it cannot be combined with a law of adhesion; empty if it can. Null: it can be
   /// combined with all laws.
   std::string_view (*refused)(AdhesionLaw law) = nullptr;
+  /// A mechanism that describes the same loss. The two cannot be combined, because each would leave
+  /// the speed that the other takes unchanged.
+  std::string_view not_with = {};
 };
 
 /// The law of a mechanism for one number type. A null function has no effect. `own` are its
@@ -117,6 +121,12 @@ struct Mechanism {
     if (info.needs_flow && at.elastomer) return false;
     return at.method == Method::unknown || info.methods.empty() ||
            std::ranges::find(info.methods, at.method) != info.methods.end();
+  }
+  /// True if a search for causes may try it: it acts, and the liquid that it needs is stated.
+  bool is_possible_at(const Surroundings& at) const {
+    const auto wet = [](const Conditions& c) { return c.of(Condition::film_thickness) > 0.0; };
+    return acts_at(at) &&
+           (!info.needs_liquid || wet(at.conditions) || std::ranges::any_of(at.of_series, wet));
   }
   bool spreads() const { return law<double>().vary != nullptr; }
   /// The reason why it cannot be combined with this law of adhesion; empty if it can.
@@ -190,6 +200,9 @@ const std::vector<Mechanism>& mechanism_catalogue();
 
 /// The mechanism `id`; null if there is none.
 const Mechanism* find_mechanism(std::string_view id);
+
+/// A mechanism of `ids` with which `id` cannot be combined; null if there is none.
+const Mechanism* rival_among(const std::vector<std::string>& ids, std::string_view id);
 
 /// The mechanisms `ids`, in the order in which they act. @pre all of them exist
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids);

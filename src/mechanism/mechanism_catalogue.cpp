@@ -39,6 +39,15 @@ const Mechanism* find_mechanism(std::string_view id) {
   return nullptr;
 }
 
+const Mechanism* rival_among(const std::vector<std::string>& ids, std::string_view id) {
+  const std::string_view rival = find_mechanism(id)->info.not_with;
+  for (const std::string& other : ids) {
+    const Mechanism* const found = find_mechanism(other);
+    if (found->info.id == rival || found->info.not_with == id) return found;
+  }
+  return nullptr;
+}
+
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids) {
   std::vector<const Mechanism*> chain;
   for (const Mechanism& mechanism : mechanism_catalogue()) {

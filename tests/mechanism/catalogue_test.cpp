@@ -40,6 +40,7 @@ std::vector<double> at_work(const Mechanism& m) {
   if (m.info.id == "van_der_waals_approach") values = {1e-17};
   if (m.info.id == "height_origin") values = {5e-3, 0.3};
   if (m.info.id == "flight_drag") values = {0.1};
+  if (m.info.id == "liquid_film") values = {2e-5, 1e-6, 1e-7};
   return values;
 }
 
@@ -50,7 +51,8 @@ TEST(Catalogue, HoldsTheIdsThatPeopleScriptAgainst) {
       "capillary",       "electrostatic_image",    "asperity_loss",       "probe_plane",
       "velocity_offset", "size_calibration",       "polydispersity",      "survivor_bias",
       "outliers",        "rebound_truncation",     "series_offset",       "size_law",
-      "hysteretic_loss", "van_der_waals_approach", "height_origin",       "flight_drag"};
+      "hysteretic_loss", "van_der_waals_approach", "height_origin",       "flight_drag",
+      "liquid_film"};
   std::set<std::string_view> found;
   for (const Mechanism& m : mechanism_catalogue()) found.insert(m.info.id);
   EXPECT_EQ(found, expected);

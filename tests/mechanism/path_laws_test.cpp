@@ -110,6 +110,109 @@ TEST(GasFilm, StopsWhatIsSlowerThanItTakes) {
   EXPECT_GT(square(kSoft, {"gas_film"}, {101325.0, 2.5 * kDiameter}, kDiameter, 2.02 * lost), 0.0);
 }
 
+/// A steel ball of 2 mm on steel, without adhesion, as Gollwitzer et al. (2012) drop glass beads:
+/// glycerol of 1 Pa s, 100 um thick, on asperities of 1 um.
+struct Wet {
+  Surroundings at;
+  double d = 2e-3, mu = 1.0, film = 1e-4, rough = 1e-6;
+
+  Wet() {
+    ImpactSystem system = one_point::steel();
+    system.adhesion_force_f0 = {};
+    system.adhesion_energy = 0.0;
+    at = one_point::around(system);
+  }
+  /// 6 pi mu r^2 / m, from m = (4/3) pi rho r^3.
+  double unit() const { return 4.5 * mu / (7900.0 * 0.5 * d); }
+  double square_at(double V, double share = 0.0) const {
+    return square(at, {"hysteretic_loss", "liquid_film"}, ordered(share), d, V);
+  }
+  std::vector<double> ordered(double share) const {
+    std::vector<double> own;
+    for (const Mechanism* m : chain_of({"hysteretic_loss", "liquid_film"})) {
+      const std::vector<double> values =
+          m->info.id == "liquid_film" ? std::vector{mu, film, rough} : std::vector{share};
+      own.insert(own.end(), values.begin(), values.end());
+    }
+    return own;
+  }
+};
+
+// e = e_dry (1 - St_c / St) with St = m V / (6 pi mu r^2), St_c = (1 + 1 / e_dry) ln(delta / h);
+// e_dry^2 = 1 - share of the elastic energy at any velocity. Capture at St_c.
+TEST(LiquidFilm, HasTheLimitsOfTheStokesNumber) {
+  const Wet wet;
+  for (const double share : {0.0, 0.36}) {
+    const double dry = std::sqrt(1.0 - share);
+    const double critical = (1.0 + 1.0 / dry) * std::log(wet.film / wet.rough);
+    for (const double St : {1.5 * critical, 3.0 * critical, 10.0 * critical, 100.0 * critical}) {
+      const double e = std::sqrt(wet.square_at(St * wet.unit(), share));
+      EXPECT_NEAR(e, dry * (1.0 - critical / St), 2e-3) << share << " " << St / critical;
+    }
+    EXPECT_LT(wet.square_at(0.998 * critical * wet.unit(), share), 0.0);
+    EXPECT_GT(wet.square_at(1.002 * critical * wet.unit(), share), 0.0);
+    EXPECT_LT(wet.square_at(0.3 * critical * wet.unit(), share), 0.0);
+  }
+  // A thinner film than the asperities are high is not felt.
+  Wet dry;
+  dry.film = 1e-8;
+  EXPECT_NEAR(dry.square_at(10.0 * dry.unit()), 1.0, 1e-4);
+}
+
+/// e of the gap x(t), m x'' = -6 pi mu r^2 x' / x, from delta to h and back with a dry e at h: the
+/// classical Runge-Kutta method in t, with steps of a thousandth of x / x'.
+double wet_restitution(const Wet& wet, double V, double e_dry) {
+  const auto way = [&](double x, double v, double end) {
+    const double direction = v < 0.0 ? -1.0 : 1.0;
+    while (direction * (end - x) > 0.0 && direction * v > 0.0) {
+      const double t = std::min(1e-3 * x / std::abs(v), (end - x) / v);
+      const auto slope = [&](double at, double speed) { return -wet.unit() * speed / at; };
+      const double a1 = slope(x, v), v2 = v + 0.5 * t * a1;
+      const double a2 = slope(x + 0.5 * t * v, v2), v3 = v + 0.5 * t * a2;
+      const double a3 = slope(x + 0.5 * t * v2, v3), v4 = v + t * a3;
+      const double a4 = slope(x + t * v3, v4);
+      x += t / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+      v += t / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+      if (std::abs(end - x) < 1e-9 * end) break;
+    }
+    return v;
+  };
+  return way(wet.rough, -e_dry * way(wet.film, -V, wet.rough), wet.film) / V;
+}
+
+TEST(LiquidFilm, IsTheIntegralOfLubrication) {
+  Wet wet;
+  for (const double film : {1e-5, 1e-4, 4e-4}) {
+    wet.film = film;
+    for (const double V : {10.0, 20.0, 60.0}) {
+      EXPECT_NEAR(std::sqrt(wet.square_at(V, 0.19)), wet_restitution(wet, V, 0.9), 2e-3) << film;
+    }
+  }
+}
+
+// Between equal spheres r^2 / m is (r / 2)^2 / (m / 2): half as much is lost.
+TEST(LiquidFilm, ActsBetweenTwoSpheres) {
+  Wet wet;
+  const double on_flat = 1.0 - std::sqrt(wet.square_at(200.0));
+  wet.at.surface_diameter = wet.d;
+  wet.at.surface_mass = M_PI / 6.0 * 7900.0 * wet.d * wet.d * wet.d;
+  EXPECT_NEAR((1.0 - std::sqrt(wet.square_at(200.0))) / on_flat, 0.5, 1e-3);
+}
+
+// Water under 4.9 um spheres with adhesion: the film captures before the adhesion does.
+TEST(LiquidFilm, ActsBesideAdhesion) {
+  const double unit = 4.5 * 1e-5 / (1350.0 * 0.5 * kDiameter);
+  const double lost = unit * std::log(100.0);
+  const std::vector<double> film = {1e-5, 1e-6, 1e-8};
+  for (const double V : {3.0, 6.0, 20.0}) {
+    const double inside = V - lost;
+    const double back =
+        inside * std::sqrt(square(kSoft, {}, {}, kDiameter, inside, one_point::kBase));
+    EXPECT_NEAR(std::sqrt(square(kSoft, {"liquid_film"}, film, kDiameter, V, one_point::kBase)),
+                (back - lost) / V, 2e-3);
+  }
+}
+
 TEST(ElectrostaticImage, IsDahnekesEnergyBalance) {
   // V_E = sqrt(1.5 eps0 / rho) E_s = 0.099 m/s at 1e6 V/m, at every size.
   const double well = 1.5 * 8.8541878128e-12 / 1350.0 * 1e12;

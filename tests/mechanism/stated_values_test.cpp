@@ -34,6 +34,26 @@ TEST(StatedValues, AGasHasThePressureAndTheWayThatAreStated) {
   EXPECT_EQ(stated("flight_drag", 0, Condition::ambient_pressure, 1.0), 0.0);
 }
 
+TEST(StatedValues, AFilmIsAsThickAsStatedAndRestsOnTheStatedRoughness) {
+  EXPECT_EQ(stated("liquid_film", 1, Condition::film_thickness, 3e-6), 3e-6);
+  EXPECT_EQ(stated("liquid_film", 1, Condition::film_thickness, 0.0), 0.0);
+  EXPECT_EQ(stated("liquid_film", 2, Condition::surface_rms_roughness, 2e-8), 2e-8);
+  EXPECT_EQ(stated("liquid_film", 0, Condition::film_thickness, 3e-6), std::nullopt);
+  EXPECT_EQ(stated("liquid_film", 0, Condition::film_thickness, 0.0), 0.0);
+}
+
+TEST(StatedValues, ALiquidIsLookedForWhereOneIsStated) {
+  const Mechanism& film = *find_mechanism("liquid_film");
+  Surroundings at = one_point::kSoft;
+  EXPECT_FALSE(film.is_possible_at(at));
+  at.conditions.set(Condition::film_thickness, 0.0);
+  EXPECT_FALSE(film.is_possible_at(at));
+  at.of_series.resize(2);
+  at.of_series[1].set(Condition::film_thickness, 1e-6);
+  EXPECT_TRUE(film.is_possible_at(at));
+  EXPECT_TRUE(find_mechanism("gas_film")->is_possible_at(one_point::kSoft));
+}
+
 /// gamma V_m / (R T) = 0.0728 N/m 1.805e-5 m3/mol / (8.31446 J/(mol K) 293.15 K) = 0.53912 nm.
 TEST(StatedValues, ABridgeIsAsLongAsTheMeniscusIsWide) {
   const auto length = [](double h) {
