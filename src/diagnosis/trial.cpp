@@ -447,6 +447,9 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
   std::vector<Screening> screenings;
   for (std::size_t a = 0; a < causes.size(); ++a) {
     for (std::size_t b = a + 1; b < causes.size(); ++b) {
+      const MechanismInfo &one = only_mechanism(*causes[a]).info,
+                          &other = only_mechanism(*causes[b]).info;
+      if (one.not_with == other.id || other.not_with == one.id) continue;
       if (only_mechanism(*causes[a]).spreads() && only_mechanism(*causes[b]).spreads()) continue;
       screenings.push_back({causes[a], causes[b], {}, {}});
     }

@@ -82,7 +82,8 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
       {"uncertainty", "materials", quoted("auto"),
        "\"auto\": the fit moves uncertain material constants within their stated errors, and every "
-       "result is averaged over how wrong the laws are; \"adjust\": the same with exact laws; true: "
+       "result is averaged over how wrong the laws are; \"adjust\": the same with exact laws; "
+       "true: "
        "the constants stay where they are stated, and their errors widen every interval; false: "
        "the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
@@ -332,6 +333,11 @@ class FitReader : private TomlReader {
            std::string(why), "leave the mechanism out, or choose adhesion = \"ring\"");
     }
     std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
+    if (const Mechanism* const rival = rival_among(mechanisms, id)) {
+      fail(item, fmt::format("the mechanisms {} and {} together", rival->info.id, id),
+           "both describe the same loss, and each would ignore what the other takes",
+           "keep one of them");
+    }
     if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {
       fail(item, fmt::format("the mechanism {} appears twice", quote(id)), "", "remove one");
     }

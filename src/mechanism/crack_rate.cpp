@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "mechanism/mechanism.hpp"
@@ -26,84 +27,163 @@ struct JkrPlace {
   }
 };
 
-/// The opening of the contact if JKR is the base model, which gives a(n) and the undamped speed.
-/// n'^2 is that of an undamped sphere less the energy that the opening has taken, and less all
-/// other losses, distributed evenly over the way out. From the largest pull on, the crack is faster
-/// than the sphere; its speed is assumed to be constant from there.
+/// A part of the way of a sphere under JKR: a from `from` to `to`, `from` at s = 0. n'^2 and its
+/// losses are in units of the incident one.
+template <class T>
+struct JkrWay {
+  T deepest, from;
+  double to;
+  bool inward = false, opens = false;
+  T before = T(0.0);                  ///< lost since the deepest point
+  T elsewhere = T(0.0);               ///< other losses, distributed evenly over the way out
+  std::optional<T> crack_power = {};  ///< v_c^k, if it is constant
+};
+
+/// The opening of the contact if JKR is the base model, with the dampings of the base model. From
+/// the largest pull on, the crack is faster than the sphere; its speed is assumed to be constant
+/// from there.
 template <class T>
 struct JkrOpening {
-  static inline const double pull = std::pow(1.5, 2.0 / 3.0);      // a^2 at the largest pull
-  static inline const double parting = std::pow(6.0, -2.0 / 3.0);  // a^2 where dn / da = 0
+  static inline const double pull = std::cbrt(1.5);           // a at the largest pull
+  static inline const double parting = std::cbrt(1.0 / 6.0);  // a where dn / da = 0
+  static inline const double touching = std::cbrt(8.0 / 3.0);
 
-  T exponent, speed, length, area, strength, most, unit, elsewhere;
-  JkrPlace<T> deepest, touch, parted;
+  T exponent, velocity, length, strength, unit, on_elastic, on_adhesive, undamped;
+  bool damps_both;
 
   JkrOpening(const Encounter<T>& e, const T& work, const T& k)
       : exponent(k),
-        speed(e.velocity * e.velocity),
+        velocity(e.velocity),
         // 6^(2/3) of the unit of n is n_eq = 2 pi f0 / K, and a^2 is counted in R times that unit.
-        length(e.adhesion_force / e.stiffness * (2.0 * std::numbers::pi * parting)),
-        area(e.contact_radius * length),
-        strength(power(e.beta(), 2.5) * std::pow(6.0, -5.0 / 3.0)),
-        most(e.contact_square() / area),
-        unit(work * area / e.mass() * (2.0 * std::numbers::pi)),
-        deepest(sqrt(most)),
-        touch(T(std::cbrt(8.0 / 3.0))),
-        parted(T(std::cbrt(1.0 / 6.0))) {
-    elsewhere = undamped(parted) - positive_part(e.square, 0.01 * speed);
+        length(e.adhesion_force / e.stiffness *
+               (2.0 * std::numbers::pi * std::pow(6.0, -2.0 / 3.0))),
+        strength(2.0 * std::pow(6.0, -5.0 / 3.0) * power(e.beta(), 2.5)),
+        unit(work * e.contact_radius * length / (e.mass() * velocity * velocity) *
+             (2.0 * std::numbers::pi)),
+        on_elastic(e.hertz_damping * velocity),
+        on_adhesive(e.adhesion_damping * velocity),
+        undamped(sqrt(e.contact_square() / (e.contact_radius * length))),
+        damps_both(e.at->phase == AdhesionDampingPhase::both) {
+    length = sqrt(length / e.contact_radius);  // of n over that of a
   }
 
-  T undamped(const JkrPlace<T>& at) const {
-    return speed - speed * (2.0 * strength * (at.energy - touch.energy));
+  T stored(const T& a) const {
+    return strength * (JkrPlace<T>(a).energy - JkrPlace<double>(touching).energy);
   }
-  /// The n'^2 that the opening takes per a^2 at this a^2, after it has taken `taken`. It ends when
-  /// a captured sphere stops, with a smooth transition at 1e-4 of the incident n'^2.
-  /// @return the rate and its slope in `taken`
-  std::pair<T, double> rate(const T& square_of_a, double taken) const {
-    const JkrPlace<T> at(sqrt(square_of_a));
-    const T way = (deepest.approach - at.approach) / (deepest.approach - parted.approach);
-    const T square = undamped(at) - elsewhere * way - taken;
-    const T width = 1e-4 * speed;
-    // v_c = |n'| / (dn / da), dn / da in units of length / sqrt(area).
-    const T slope = at.slope * length / sqrt(area);
-    const T took =
-        unit *
-        exponential(exponent * (0.5 * logarithm(positive_part(square, width)) - logarithm(slope)));
-    return {took, -0.5 * value_of(exponent) * value_of(took) /
-                      std::hypot(value_of(square), value_of(width))};
+  /// n'^2 at a, after `lost` on this part of the way.
+  T square(const JkrWay<T>& way, const T& a, double lost) const {
+    const T plain = stored(way.deepest) - stored(a);
+    if (way.inward) return plain + lost;
+    const T all = JkrPlace<T>(way.deepest).approach - JkrPlace<double>(parting).approach;
+    const T part = JkrPlace<T>(way.deepest).approach - JkrPlace<T>(a).approach;
+    return plain - lost - way.before - way.elsewhere * (part / all);
+  }
+  /// v_c^k at this n'^2, v_c = |n'| / (dn / da). It ends when a captured sphere stops, with a
+  /// smooth transition.
+  T crack_power(const T& square, const T& slope) const {
+    return exponential(exponent * (0.5 * logarithm(positive_part(square, T(width))) +
+                                   logarithm(velocity) - logarithm(slope * length)));
+  }
+  /// The loss per s, at a = from - (from - to) s^2, because n'^2 grows like s^2 from the deepest
+  /// point, and its slope in `lost`.
+  std::pair<T, double> rate(const JkrWay<T>& way, double s, double lost) const {
+    const T a = way.from - (way.from - way.to) * (s * s);
+    const T slope = JkrPlace<T>(a).slope;
+    const T now = square(way, a, lost);
+    const T cube = a * a * a;
+    T force = on_elastic * cube;
+    if (!way.inward || damps_both) force += on_adhesive * sqrt(6.0 * cube);
+    const T damping = strength * force * slope * sqrt(positive_part(now, T(width)));
+    T opening(0.0);
+    if (way.opens) {
+      opening = 2.0 * unit * a * (way.crack_power ? *way.crack_power : crack_power(now, slope));
+    }
+    const T stretch = (way.from - way.to) * (2.0 * s);
+    const double felt = way.crack_power ? 0.0 : value_of(exponent) * value_of(opening);
+    const double by_square = 0.5 * (value_of(damping) + felt) / std::hypot(value_of(now), width);
+    return {(damping + opening) * stretch,
+            (way.inward ? by_square : -by_square) * value_of(stretch)};
+  }
+
+  static constexpr double width = 1e-4;
+};
+
+JkrWay<double> plain(const JkrWay<double>& way) { return way; }
+template <class T>
+JkrWay<double> plain(const JkrWay<T>& way) {
+  JkrWay<double> same{value_of(way.deepest), value_of(way.from),     way.to, way.inward, way.opens,
+                      value_of(way.before),  value_of(way.elsewhere)};
+  if (way.crack_power) same.crack_power = value_of(*way.crack_power);
+  return same;
+}
+
+template <class T>
+struct JkrLosses {
+  JkrOpening<double> numbers;
+  JkrOpening<T> full;
+
+  /// The loss on a part of the way.
+  template <int steps = 12>
+  T on(const JkrWay<T>& way) const {
+    const JkrWay<double> same = plain(way);
+    return integrate_loss<T, steps>(
+        [&](int node, double lost) -> RateOfLoss {
+          const auto [value, slope] = numbers.rate(same, radau_place(node, steps), lost);
+          return {value, slope};
+        },
+        [&](int node, double lost) {
+          return full.rate(way, radau_place(node, steps), lost).first;
+        });
+  }
+  /// a at the deepest point: the stored energy and the loss on the way in are all of it.
+  T deepest() const {
+    const JkrLosses<double> same{numbers, numbers};
+    const auto excess = [](const auto& losses, const auto& a) {
+      return losses.full.stored(a) +
+             losses.on(
+                 {.deepest = a, .from = a, .to = JkrOpening<double>::touching, .inward = true}) -
+             1.0;
+    };
+    double a = value_of(full.undamped), slope = 1.0;
+    for (int step = 0; step < 12; ++step) {
+      const double h = 1e-4 * a;
+      slope = (excess(same, a + h) - excess(same, a - h)) / (2.0 * h);
+      const double change = excess(same, a) / slope;
+      a -= change;
+      if (std::abs(change) < 1e-9 * a) break;
+    }
+    return a - excess(*this, T(a)) * (1.0 / slope);
+  }
+  /// n'^2 where the contact parts.
+  T square_out(const T& deepest, bool opens, const T& elsewhere) const {
+    using Opening = JkrOpening<double>;
+    JkrWay<T> way{.deepest = deepest, .from = deepest, .to = Opening::pull};
+    way.opens = opens;
+    way.elsewhere = elsewhere;
+    way.before = on(way);
+    way.from = T(Opening::pull);
+    way.to = Opening::parting;
+    if (opens) {
+      way.crack_power = full.crack_power(full.square(way, way.from, 0.0),
+                                         T(JkrPlace<double>(Opening::pull).slope));
+    }
+    way.before += on<4>(way);
+    return full.square(way, T(Opening::parting), 0.0);
   }
 };
 
-/// The energy [J] that the opening takes.
+/// The energy [J] that the opening takes: as in `opening_loss`, the dampings act on the slower
+/// sphere.
 template <class T>
 T opening_under_jkr(const Encounter<T>& e, const T& work, const T& k) {
-  const JkrOpening<double> plain(e.without_slopes(), value_of(work), value_of(k));
-  if (!(plain.most > plain.pull)) return T(0.0);
-  const JkrOpening<T> full(e, work, k);
-  // a^2 = pull + (most - pull) cos^2(pi s / 2), because the speed vanishes like a square root at
-  // the largest a^2. The unit is the square of the incident speed.
-  const auto part = [](double s) { return std::pow(std::cos(0.5 * std::numbers::pi * s), 2); };
-  const auto stretch = [](double s) {
-    return 0.5 * std::numbers::pi * std::sin(std::numbers::pi * s);
-  };
-  const double width = plain.most - plain.pull;
-  constexpr int steps = 12;
-  const T sum = integrate_loss<T, steps>(
-      [&](int node, double taken) -> RateOfLoss {
-        const double s = radau_place(node, steps);
-        const auto [took, slope] = plain.rate(plain.pull + width * part(s), taken * plain.speed);
-        return {took * width * stretch(s) / plain.speed, slope * width * stretch(s)};
-      },
-      [&](int node, double taken) {
-        const double s = radau_place(node, steps);
-        const T wide = full.most - full.pull;
-        const T took = full.rate(full.pull + wide * part(s), taken * plain.speed).first;
-        return took * wide * (stretch(s) / plain.speed);
-      });
-  const double whole = value_of(sum) * plain.speed;
-  auto [last, slope] = full.rate(T(full.pull), whole);
-  add_slopes(last, slope * plain.speed, sum);
-  return 0.5 * e.mass() * (sum * plain.speed + (full.pull - full.parting) * last);
+  const JkrLosses<T> losses{{e.without_slopes(), value_of(work), value_of(k)}, {e, work, k}};
+  if (!(losses.numbers.undamped > JkrOpening<double>::touching)) return T(0.0);
+  const T speed = e.velocity * e.velocity;
+  const T deepest = losses.deepest();
+  const T elsewhere = losses.square_out(deepest, false, T(0.0)) - e.square / speed;
+  const T taken =
+      losses.square_out(deepest, false, elsewhere) - losses.square_out(deepest, true, elsewhere);
+  return 0.5 * e.mass() * speed * taken;
 }
 
 /// Work of separation w = w_0 + w_1 (v_c / (1 m/s))^k at the crack velocity v_c = |a'|, w_1 = s
@@ -148,7 +228,7 @@ Mechanism crack_rate() {
                       .null_value = 0.5,
                       .initial = 0.5,
                       .lower = 0.05,
-                      .upper = 1.5,
+                      .upper = 1.0,
                       .plausible = {0.2, 0.8, "0.3 to 0.7 are measured for polymers"},
                       .free = false}},
       .needs_adhesion = true,
@@ -156,6 +236,7 @@ Mechanism crack_rate() {
         if (law == AdhesionLaw::ring || law == AdhesionLaw::jkr) return {};
         return "such a contact has no crack with a sharp edge";
       },
+      .not_with = "adhesion_hysteresis",
   });
 }
 
