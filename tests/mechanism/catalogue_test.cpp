@@ -99,6 +99,20 @@ TEST(Catalogue, TheChainDoesNotDependOnTheOrderInTheFile) {
   EXPECT_EQ(one.back()->info.id, "series_offset");
 }
 
+TEST(Catalogue, TwoDescriptionsOfOneLossAreNotCombined) {
+  EXPECT_EQ(rival_among({"gas_film", "crack_rate"}, "adhesion_hysteresis")->info.id, "crack_rate");
+  EXPECT_EQ(rival_among({"adhesion_hysteresis"}, "crack_rate")->info.id, "adhesion_hysteresis");
+  EXPECT_EQ(rival_among({"gas_film", "adhesion_hysteresis"}, "capillary"), nullptr);
+  try {
+    parse_fit("dataset = \"x\"\n[model]\nmechanisms = [\"crack_rate\", \"adhesion_hysteresis\"]\n",
+              "fit.toml");
+    FAIL() << "the two were accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("crack_rate and adhesion_hysteresis together"),
+              std::string::npos);
+  }
+}
+
 class EveryMechanism : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryMechanism, VanishesAtItsNullValue) {
