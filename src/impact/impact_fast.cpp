@@ -43,8 +43,15 @@ bool agrees_with(const FastKernel& baseline, const FastKernel& kernel) {
 /// Sets the result of a sphere that creeps into the well of `Law`: e^2 is twice the depth, which is
 /// proportional to beta^(5/2). Returns false for any other sphere.
 template <class Law>
-bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
-  if (!Law::overdamped(groups)) return false;
+bool rests_at_once(const ImpactGroups& groups, const ImpactOptions& options, ImpactResult& result) {
+  if (options.never_pulls && groups.kappa > 0.0) {
+    if constexpr (Law::has_dashpot) {
+      constexpr double strong = 12.0;
+      if (!Law::holds(groups) || !(groups.kappa > strong || Law::overdamped(groups))) return false;
+    }
+  } else if (!Law::overdamped(groups)) {
+    return false;
+  }
   result.outcome = ImpactOutcome::captured;
   result.restitution_squared = 2.0 * Law::depth(groups);
   result.gradient[1] = 2.5 * result.restitution_squared / groups.beta;
@@ -64,7 +71,7 @@ bool closed_form_result(const ImpactGroups& groups, const ImpactOptions& options
     return true;
   }
   return with_law(options.adhesion,
-                  [&]<class Law>() { return rests_at_once<Law>(groups, result); });
+                  [&]<class Law>() { return rests_at_once<Law>(groups, options, result); });
 }
 
 long simulate_run(std::span<const ImpactGroups> groups, const ImpactOptions& options,
