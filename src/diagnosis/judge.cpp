@@ -41,7 +41,7 @@ std::optional<MovingColumns> moving_columns(const Refit& refit) {
   return found;
 }
 
-constexpr double at_null = 1e-9;  // relative to the range of a parameter
+constexpr double at_null = 1e-9;  // relative to the usual size of a parameter
 
 /// Is `value` outside the range by at most half of it, or by a factor of two for `log_scale`?
 bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {
@@ -189,8 +189,9 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.sd = sd[j];
     parameter.null_value = slot.parameter->null_value;
     parameter.stated_by = slot.stated;
-    const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
-                          at_null * (slot.upper - slot.lower);
+    const double usual =
+        std::max(std::abs(slot.parameter->initial), std::abs(parameter.null_value));
+    const bool vanishes = std::abs(parameter.value - parameter.null_value) <= at_null * usual;
     if (slot.free && !vanishes) judge_plausibility(candidate, refit, j, errors * sd[j], parameter);
     found.push_back(std::move(parameter));
   }

@@ -13,7 +13,9 @@ namespace {
 constexpr double least_decrease = 1e-3;
 constexpr double least_radius = 1e-32;
 constexpr double largest_radius = 1e16;
-constexpr double shortest_column = 1e-3;  // lower limit of the entries of D
+constexpr double shortest_column = 1e-3;  // lower limit of the entries of D, in relative steps
+
+double power_of_two(double size) { return std::ldexp(1.0, std::ilogb(size)); }
 
 /// Minimises |R d + c|^2 within low <= d <= high, where low <= 0 <= high, by an active-set method.
 /// It starts at d = 0 and steps along the free parameters up to the first bound that it meets. The
@@ -103,7 +105,10 @@ class BoxedStep {
   Eigen::VectorXd d_;
 };
 
-/// The descent, in ln theta for parameters with `log_scale`.
+/// The descent, in ln theta for parameters with `log_scale`. Others are in a unit of the size of
+/// the largest value that they had, so that nothing depends on the unit of a parameter; one that
+/// starts at 0 is in units of the change that moves the residuals by 1. The units are powers of
+/// two, which cost no digit.
 class BoxDescent {
  public:
   BoxDescent(const LeastSquaresProblem& problem, std::span<const double> start,
@@ -114,6 +119,7 @@ class BoxDescent {
       result_.theta[j] = std::clamp(start[j], problem.lower[j], problem.upper[j]);
       if (!fixed[j]) free_.push_back(j);
     }
+    units_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_.size()));
   }
 
   LeastSquaresResult run(const LeastSquaresOptions& options) {
@@ -193,8 +199,11 @@ class BoxDescent {
     return std::isfinite(at.sum_of_squares);
   }
 
-  double coordinate(std::size_t j, double theta) const {
-    return problem_.log_scale[j] ? std::log(theta) : theta;
+  /// The way from theta_j to `bound` in the coordinate of the k-th free parameter.
+  double way_to(double bound, Eigen::Index k) const {
+    const std::size_t j = free_[static_cast<std::size_t>(k)];
+    const double theta = result_.theta[j];
+    return problem_.log_scale[j] ? std::log(bound / theta) : (bound - theta) / units_(k);
   }
 
   /// Sets residuals, Jacobian, position and distances to the bounds in the coordinates of the free
@@ -210,14 +219,19 @@ class BoxDescent {
     high_.resize(q);
     for (Eigen::Index k = 0; k < q; ++k) {
       const std::size_t j = free_[static_cast<std::size_t>(k)];
-      const double theta = result_.theta[j];
-      const double chain = problem_.log_scale[j] ? theta : 1.0;
       for (Eigen::Index i = 0; i < n; ++i) {
-        jacobian_(i, k) = chain * result_.jacobian[static_cast<std::size_t>(i) * p + j];
+        jacobian_(i, k) = result_.jacobian[static_cast<std::size_t>(i) * p + j];
       }
-      where_(k) = coordinate(j, theta);
-      low_(k) = coordinate(j, problem_.lower[j]) - where_(k);
-      high_(k) = coordinate(j, problem_.upper[j]) - where_(k);
+      const double theta = result_.theta[j];
+      if (const double length = jacobian_.col(k).norm(); theta != 0.0) {
+        units_(k) = std::max(units_(k), power_of_two(theta));
+      } else if (units_(k) == 0.0) {
+        units_(k) = length > 0.0 ? power_of_two(1.0 / length) : 1.0;
+      }
+      jacobian_.col(k) *= problem_.log_scale[j] ? theta : units_(k);
+      where_(k) = problem_.log_scale[j] ? std::log(theta) : theta / units_(k);
+      low_(k) = way_to(problem_.lower[j], k);
+      high_(k) = way_to(problem_.upper[j], k);
     }
   }
 
@@ -249,7 +263,7 @@ class BoxDescent {
       const std::size_t j = free_[static_cast<std::size_t>(k)];
       if (d(k) == 0.0) continue;
       const double theta =
-          problem_.log_scale[j] ? to.theta[j] * std::exp(d(k)) : to.theta[j] + d(k);
+          problem_.log_scale[j] ? to.theta[j] * std::exp(d(k)) : to.theta[j] + units_(k) * d(k);
       to.theta[j] = d(k) <= low_(k)    ? problem_.lower[j]
                     : d(k) >= high_(k) ? problem_.upper[j]
                                        : std::clamp(theta, problem_.lower[j], problem_.upper[j]);
@@ -260,7 +274,7 @@ class BoxDescent {
   const LeastSquaresProblem& problem_;
   std::vector<std::size_t> free_;
   LeastSquaresResult result_;
-  Eigen::VectorXd residuals_, where_, low_, high_;
+  Eigen::VectorXd residuals_, units_, where_, low_, high_;
   Eigen::MatrixXd jacobian_;
 };
 

@@ -21,7 +21,8 @@ namespace {
 constexpr double least_effect = 1e-8;
 
 /// The coordinates z in which Ceres minimises: the free parameters only, as logarithms for
-/// `log_scale`.
+/// `log_scale`, others in a unit of the size of their start: Ceres has absolute tolerances. The
+/// unit is a power of two, so that it costs no digit.
 class Coordinates {
  public:
   Coordinates(const LeastSquaresProblem& problem, std::span<const double> start,
@@ -29,6 +30,8 @@ class Coordinates {
       : problem_(problem), theta_(start.begin(), start.end()) {
     for (std::size_t j = 0; j < theta_.size(); ++j) {
       theta_[j] = std::clamp(theta_[j], problem.lower[j], problem.upper[j]);
+      const bool scaled = !problem.log_scale[j] && theta_[j] != 0.0;
+      units_.push_back(scaled ? std::ldexp(1.0, std::ilogb(theta_[j])) : 1.0);
       if (!held[j]) free_.push_back(j);
     }
   }
@@ -36,14 +39,18 @@ class Coordinates {
   const std::vector<std::size_t>& free() const { return free_; }
 
   double to_z(std::size_t j, double theta) const {
-    return problem_.log_scale[j] ? std::log(theta) : theta;
+    return problem_.log_scale[j] ? std::log(theta) : theta / units_[j];
+  }
+  /// d theta_j / d z_j.
+  double chain(std::size_t j, double theta) const {
+    return problem_.log_scale[j] ? theta : units_[j];
   }
 
   std::vector<double> to_theta(const double* z) const {
     std::vector<double> theta = theta_;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const std::size_t j = free_[k];
-      const double value = problem_.log_scale[j] ? std::exp(z[k]) : z[k];
+      const double value = problem_.log_scale[j] ? std::exp(z[k]) : z[k] * units_[j];
       theta[j] = std::clamp(value, problem_.lower[j], problem_.upper[j]);
     }
     return theta;
@@ -58,6 +65,7 @@ class Coordinates {
  private:
   const LeastSquaresProblem& problem_;
   std::vector<double> theta_;
+  std::vector<double> units_;
   std::vector<std::size_t> free_;
 };
 
@@ -106,8 +114,8 @@ class Residuals : public ceres::CostFunction {
     for (std::size_t i = 0; i < answer.residuals.size(); ++i) {
       for (std::size_t k = 0; k < free.size(); ++k) {
         const std::size_t j = free[k];
-        const double chain = problem_.log_scale[j] ? answer.theta[j] : 1.0;
-        jacobians[0][i * free.size() + k] = answer.jacobian[i * p + j] * chain;
+        jacobians[0][i * free.size() + k] =
+            answer.jacobian[i * p + j] * coordinates_.chain(j, answer.theta[j]);
       }
     }
     return true;
@@ -130,9 +138,10 @@ class Residuals : public ceres::CostFunction {
   mutable Answer last_;
 };
 
-bool rests_on_bound(double value, double bound) {
+/// @param size of the values of this parameter, for a bound of 0
+bool rests_on_bound(double value, double bound, double size) {
   if (!std::isfinite(bound)) return false;
-  return std::abs(value - bound) <= 1e-9 * std::max(std::abs(bound), 1e-9);
+  return std::abs(value - bound) <= 1e-9 * std::max(std::abs(bound), 1e-9 * size);
 }
 
 /// The parameters that are neither fixed nor at a bound.
@@ -267,9 +276,11 @@ LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const dou
 }
 
 /// The bound on which theta_j rests: -1 lower, +1 upper, 0 none.
-int resting_side(const LeastSquaresProblem& problem, double theta, std::size_t j) {
-  if (rests_on_bound(theta, problem.lower[j])) return -1;
-  return rests_on_bound(theta, problem.upper[j]) ? 1 : 0;
+int resting_side(const LeastSquaresProblem& problem, std::span<const double> start, double theta,
+                 std::size_t j) {
+  const double size = std::abs(start[j]);
+  if (rests_on_bound(theta, problem.lower[j], size)) return -1;
+  return rests_on_bound(theta, problem.upper[j], size) ? 1 : 0;
 }
 
 /// Descends within the bounds by the last strategy.
@@ -291,7 +302,7 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {
       if (fixed[j]) continue;
-      const int side = resting_side(problem, result.theta[j], j);
+      const int side = resting_side(problem, start, result.theta[j], j);
       const bool pushed_out = side != 0 && side * slope_along(result, j) <= 0.0;
       if (pushed_out != held[j]) {
         held[j] = pushed_out;
@@ -316,7 +327,7 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
   }
   result.at_bound.assign(p, false);
   for (std::size_t j = 0; j < p; ++j) {
-    result.at_bound[j] = !fixed[j] && resting_side(problem, result.theta[j], j) != 0;
+    result.at_bound[j] = !fixed[j] && resting_side(problem, start, result.theta[j], j) != 0;
   }
   return result;
 }

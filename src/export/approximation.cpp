@@ -49,6 +49,7 @@ ContactForce force_of(const Approximation& approximation, const ExportedImpact& 
   force.adhesion = AdhesionLaw::ring;
   force.adhesion_force = force.adhesion_energy = force.adhesion_damping = 0.0;
   force.hertz_damping = force.dashpot = 0.0;
+  force.never_pulls = false;
   if (approximation.model == StockModel::hertz_dashpot) force.dashpot = approximation.value;
   return force;
 }

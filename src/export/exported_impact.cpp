@@ -37,6 +37,7 @@ ImpactOptions options_under(const ContactForce& force) {
   options.adhesion = force.adhesion;
   options.phase = force.phase;
   options.dashpot = force.dashpot > 0.0;
+  options.never_pulls = force.never_pulls;
   return options;
 }
 
@@ -69,8 +70,10 @@ ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
                         c.density, c.stiffness,     c.adhesion_force,
                         0.0,       c.hertz_damping, c.adhesion_damping};
   if (!model.chain.empty()) {
-    const Encounter<double> e =
-        contact_view(model, theta, {request.dataset, request.diameter, middle}).encounter;
+    const ContactView view =
+        contact_view(model, theta, {request.dataset, request.diameter, middle});
+    const Encounter<double>& e = view.encounter;
+    force.never_pulls = view.never_pulls;
     force.adhesion_force = e.adhesion_force;
     force.hertz_damping = e.hertz_damping;
     force.adhesion_damping = e.adhesion_damping;

@@ -31,6 +31,7 @@ struct ContactForce {
   double hertz_damping = 0.0;     ///< C_H [s/m]
   double adhesion_damping = 0.0;  ///< C_A [s/m]
   double dashpot = 0.0;           ///< D [N s m^(-3/2)], with the ring law only
+  bool never_pulls = false;       ///< what K and D multiply together is 0 where it would pull
 
   double mass() const;  ///< [kg]
   /// JKR: the contact ends at n = -3 u; u = a_p^2 / r, a_p^3 = pi W r^2 / (6 K) [m].

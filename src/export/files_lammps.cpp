@@ -54,7 +54,8 @@ variable CH equal @CH@      # [s/m]
 variable CA equal @CA@      # [s/m]
 variable D equal @DASHPOT@  # dashpot of the mechanisms
 variable n atom "(v_R-z+abs(v_R-z))/2"
-variable fz atom "sqrt(v_R*v_n)*(v_K*v_n*(1-v_CH*vz)-2*PI*v_f0*(1+v_CA*@ACTS@))-v_D*sqrt(v_n)*vz"
+variable push atom "sqrt(v_R*v_n)*v_K*v_n*(1-v_CH*vz)-v_D*sqrt(v_n)*vz"
+variable fz atom "@PUSH@-sqrt(v_R*v_n)*2*PI*v_f0*(1+v_CA*@ACTS@)"
 fix contact all addforce 0 0 v_fz
 pair_style none
 )in";
@@ -133,6 +134,7 @@ std::string force_text(const ExportJob& job) {
                       {"CH", shortest(f.hertz_damping)},
                       {"CA", shortest(f.adhesion_damping)},
                       {"DASHPOT", shortest(f.dashpot * dashpot)},
+                      {"PUSH", f.never_pulls ? "(v_push+abs(v_push))/2" : "v_push"},
                       {"U", shortest(f.jkr_length() * um)},
                       {"P", shortest(unit * newton)},
                       {"ACTS", f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz"}});

@@ -58,10 +58,11 @@ print("restitution %.9f" % (state.vel[2] / V if back else 0.0))
 sys.exit(0)
 )py";
 
-constexpr const char* yade_ring =
+constexpr const char* yade_push =
     "    a = math.sqrt(R * n)\n"
-    "    return (a * K * n * (1 - C_H * v) - 2 * math.pi * a * F0 * (1 + C_A * acts)\n"
-    "            - D * math.sqrt(n) * v)\n";
+    "    push = a * K * n * (1 - C_H * v) - D * math.sqrt(n) * v\n";
+constexpr const char* yade_never_pulls = "    push = max(push, 0.0)\n";
+constexpr const char* yade_ring = "    return push - 2 * math.pi * a * F0 * (1 + C_A * acts)\n";
 constexpr const char* yade_dmt =
     "    return K * math.sqrt(R) * n**1.5 * (1 - C_H * v) - 2 * math.pi * W * R * (1 + C_A * "
     "acts)\n";
@@ -106,6 +107,8 @@ std::string yade_body(const ExportJob& job) {
   std::string adhesion = fmt::format("F0 = {}  # [N/m]", f.adhesion_force);
   if (jkr || dmt) adhesion = fmt::format("W = {}  # [J/m2]", f.adhesion_energy);
   if (jkr) adhesion += fmt::format("\nU = (math.pi * W * R**2 / (6 * K))**(2 / 3) / R  # [m]");
+  const std::string ring =
+      yade_push + std::string(f.never_pulls ? yade_never_pulls : "") + yade_ring;
   return filled(yade_force, {{"K", shortest(f.stiffness)},
                              {"ADHESION", adhesion},
                              {"CH", shortest(f.hertz_damping)},
@@ -115,7 +118,7 @@ std::string yade_body(const ExportJob& job) {
                              {"ACTS", f.phase == AdhesionDampingPhase::both ? "v" : "max(v, 0.0)"},
                              {"LAW", jkr   ? yade_jkr
                                      : dmt ? yade_dmt
-                                           : yade_ring},
+                                           : ring},
                              {"RHO", shortest(f.density)}});
 }
 

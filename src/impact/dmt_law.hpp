@@ -59,6 +59,17 @@ struct DmtLaw : HertzRadius {
     const auto pull = twice_q * p;
     return push + push * (alpha * u) + (pull + -(pull * (acts * (gamma * u))));
   }
+  template <class Q, class U, class Alpha, class P, class Gamma>
+  static constexpr auto push(const Q& q, const U& u, const Alpha& alpha, const P&, const Gamma&) {
+    const Q hertz = -2.0 * (q * q * (q * q));
+    return hertz + hertz * (alpha * u);
+  }
+  template <class Q, class U, class Acts, class Alpha, class P, class Gamma>
+  static constexpr auto pull(const Q& q, const U& u, const Acts& acts, const Alpha&, const P& p,
+                             const Gamma& gamma) {
+    const auto adhesion = (q + q) * p;
+    return adhesion + -(adhesion * (acts * (gamma * u)));
+  }
   template <class Q, class Alpha, class P, class Gamma>
   static constexpr auto potential(const Q& q, const Alpha&, const P& p, const Gamma&) {
     const Q x = q * q;
@@ -67,6 +78,10 @@ struct DmtLaw : HertzRadius {
   }
   static bool admits(const ImpactGroups&) { return true; }
   static bool vanishes(const ImpactGroups&) { return false; }
+  static bool holds(const ImpactGroups& g) {
+    const double deepest = path_of(g).deepest;
+    return strength(g) * g.kappa * g.kappa >= deepest * deepest;
+  }
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
   static PlainForces forces(double q, double u, double acts, double alpha, double p, double gamma) {

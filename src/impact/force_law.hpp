@@ -167,6 +167,19 @@ struct RingAdhesionLaw : HertzRadius {
                                      const Beta& beta, const Gamma& gamma) {
     return regularised_acceleration(q, u, alpha, beta, gamma, acts);
   }
+  /// The two parts of `acceleration`: the elastic one with C_H, and the adhesive one with C_A.
+  template <class Q, class U, class Alpha, class Beta, class Gamma>
+  static constexpr auto push(const Q& q, const U& u, const Alpha& alpha, const Beta&,
+                             const Gamma&) {
+    const Q hertz = -2.0 * (q * q * (q * q));
+    return hertz + hertz * (alpha * u);
+  }
+  template <class Q, class U, class Acts, class Alpha, class Beta, class Gamma>
+  static constexpr auto pull(const Q& q, const U& u, const Acts& acts, const Alpha&,
+                             const Beta& beta, const Gamma& gamma) {
+    const auto adhesion = (2.0 * (q * q)) * beta;
+    return adhesion + -(adhesion * (acts * (gamma * u)));
+  }
   template <class Q, class Alpha, class Beta, class Gamma>
   static constexpr auto potential(const Q& q, const Alpha&, const Beta& beta, const Gamma&) {
     return potential_energy(q, beta);
@@ -175,6 +188,12 @@ struct RingAdhesionLaw : HertzRadius {
   static bool vanishes(const ImpactGroups&) { return false; }
   static bool overdamped(const ImpactGroups& g) { return is_overdamped(g); }
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
+  /// True if a dashpot that never pulls keeps pushing, because a sphere at rest at the deepest
+  /// point does not become fast enough: where elastic force and dashpot balance, the adhesion slows
+  /// it down more than the line of this balance falls.
+  static bool holds(const ImpactGroups& g) {
+    return g.beta * g.kappa * g.kappa >= path_of(g).deepest;
+  }
 
   /// The four forces [m V^2 / n_c].
   static PlainForces forces(double q, double u, double acts, double alpha, double beta,

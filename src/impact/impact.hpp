@@ -67,9 +67,11 @@ struct ImpactResult {
 struct ImpactOptions {
   AdhesionLaw adhesion = AdhesionLaw::ring;
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  bool gradient = false;          ///< forward sensitivities
-  bool budget = false;            ///< energy budget, contact time and peak forces
-  bool dashpot = false;           ///< the law has a dashpot; otherwise kappa has to be 0
+  bool gradient = false;  ///< forward sensitivities
+  bool budget = false;    ///< energy budget, contact time and peak forces
+  bool dashpot = false;   ///< the law has a dashpot; otherwise kappa has to be 0
+  /// The elastic force and the dashpot together never pull; they are 0 instead.
+  bool never_pulls = false;
   double tolerance = 1e-11;       ///< relative, per step, of the reference
   long max_steps = 200000;        ///< of the reference
   double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver
@@ -102,7 +104,8 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
 /// integral equations (impact/phase_solver.hpp), or, if these do not converge, integrates the
 /// regularised field by a method of fixed order (impact/step_solver.hpp). It is hundreds to
 /// thousands of times faster than the reference, with the same results: tests/impact/
-/// fast_solver_test.cpp compares e^2 to 1e-9 and the gradient to 1e-7 over a wide range.
+/// fast_solver_test.cpp compares e^2 to 1e-9 and the gradient to 1e-7 over a wide range, relative
+/// to the depth of the adhesive well where that exceeds the incident energy.
 ///
 /// If neither method is accurate (too many or too small steps), the reference solves the impact. An
 /// impact has the same digits alone and among others, at any register width. No memory is

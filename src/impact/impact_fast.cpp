@@ -53,12 +53,28 @@ bool creeps(const ImpactGroups& groups, const LawPath& path) {
   }
 }
 
+/// The same where elastic force and dashpot together never pull.
+template <class Law>
+bool creeps_behind_dashpot(const ImpactGroups& groups) {
+  constexpr double strong = 12.0;
+  if constexpr (Law::has_dashpot) {
+    if (!Law::holds(groups)) return false;
+    if (groups.kappa > strong) return true;
+    if constexpr (requires { Law::overdamped(groups); }) return Law::overdamped(groups);
+  }
+  return false;
+}
+
 /// Sets the result of a sphere that creeps into the well of `Law`: e^2 is twice the depth. Returns
 /// false for any other sphere.
 template <class Law>
-bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
+bool rests_at_once(const ImpactGroups& groups, const ImpactOptions& options, ImpactResult& result) {
   const LawPath path = Law::path_of(groups);
-  if (!creeps<Law>(groups, path)) return false;
+  if (options.never_pulls && groups.kappa > 0.0) {
+    if (!creeps_behind_dashpot<Law>(groups)) return false;
+  } else if (!creeps<Law>(groups, path)) {
+    return false;
+  }
   LawLanes<Law, std::array<double, 1>> law;
   law.set(0, groups);
   if constexpr (Law::constants > 0) law.constants.back() = {0.0};
@@ -80,7 +96,7 @@ bool closed_form_result(const ImpactGroups& groups, const ImpactOptions& options
     return true;
   }
   return with_law(options.adhesion,
-                  [&]<class Law>() { return rests_at_once<Law>(groups, result); });
+                  [&]<class Law>() { return rests_at_once<Law>(groups, options, result); });
 }
 
 long simulate_run(std::span<const ImpactGroups> groups, const ImpactOptions& options,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sundials/sundials_context.hpp>
 #include <utility>
 
@@ -30,6 +31,7 @@ struct Field {
   std::array<double, Law::constants> constants;
   LawPath path;
   AdhesionDampingPhase phase;
+  bool never_pulls;
   double cusp_radius_squared;
   bool rebounding = false;  ///< beyond the inner turning point
 
@@ -111,14 +113,30 @@ int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_
   NV_Ith_S(rates, 0) = clock;
   NV_Ith_S(rates, 1) = -clock * forces.hertz_damping * u;
   NV_Ith_S(rates, 2) = -clock * forces.adhesion_damping * u;
-  if constexpr (has_dashpot<Law>) NV_Ith_S(rates, 3) = dashpot_power(f, q) * u * u;
+  if constexpr (has_dashpot<Law>) {
+    // A dashpot that may not pull takes up the elastic force.
+    NV_Ith_S(rates, 3) = f.constants.back() > 0.0
+                             ? dashpot_power(f, q) * u * u
+                             : clock * (forces.hertz + forces.hertz_damping) * u;
+  }
   return 0;
+}
+
+/// Zero where the law changes: at the seam, or where elastic force and dashpot cease to act.
+template <class Law>
+double seam_of(const Field<Law>& f, double q, [[maybe_unused]] double u) {
+  if constexpr (has_dashpot<Law>) {
+    if (!f.never_pulls || !f.rebounding || f.groups.back() == 0.0) return 1.0;
+    return with_values(f, [&](auto... v) { return Law::push(q, u, v...); });
+  } else {
+    return f.path.seam ? q : 1.0;
+  }
 }
 
 template <class Law>
 int turning_event(realtype, N_Vector y, realtype* value, void* user_data) {
   value[0] = NV_Ith_S(y, 1);
-  value[1] = field_of<Law>(user_data).path.seam ? NV_Ith_S(y, 0) : 1.0;
+  value[1] = seam_of(field_of<Law>(user_data), NV_Ith_S(y, 0), NV_Ith_S(y, 1));
   return 0;
 }
 
@@ -130,7 +148,7 @@ int end_events(realtype, N_Vector y, realtype* value, void* user_data) {
   value[0] = way;                                        // release
   value[1] = u;                                          // outer turning point
   value[2] = way * way + u * u - f.cusp_radius_squared;  // separatrix
-  value[3] = f.path.seam ? NV_Ith_S(y, 0) : 1.0;
+  value[3] = seam_of(f, NV_Ith_S(y, 0), u);
   return 0;
 }
 
@@ -156,8 +174,9 @@ class Integration {
       : options_(options),
         impact_(groups),
         depth_(Law::depth(groups)),
-        field_{Law::groups_of(groups), Law::constants_of(groups), Law::path_of(groups),
-               options.phase, std::pow(Law::cusp_radius(groups, undecided_energy), 2)},
+        field_{Law::groups_of(groups), Law::constants_of(groups),
+               Law::path_of(groups),   options.phase,
+               options.never_pulls,    std::pow(Law::cusp_radius(groups, undecided_energy), 2)},
         state_(N_VNew_Serial(2, context_)),
         quadratures_(N_VNew_Serial(quadratures, context_)) {
     NV_Ith_S(state_.get(), 0) = field_.path.start;
@@ -179,9 +198,18 @@ class Integration {
 
   /// One internal step, or to the next event if that comes first; CVODES's return code.
   int step() {
+    last_sigma_ = sigma_;
     const int code = CVode(memory_.get(), longest_arc, state_.get(), &sigma_, CV_ONE_STEP);
     if (options_.budget) CVodeGetQuad(memory_.get(), &sigma_, quadratures_.get());
     return code;
+  }
+
+  /// q and u at this part of the way from the start of the last step to its end.
+  std::optional<std::pair<double, double>> within_step(double part) {
+    const Vector at(N_VNew_Serial(2, context_));
+    const double sigma = last_sigma_ + part * (sigma_ - last_sigma_);
+    if (CVodeGetDky(memory_.get(), sigma, 0, at.get()) != CV_SUCCESS) return std::nullopt;
+    return std::pair(NV_Ith_S(at.get(), 0), NV_Ith_S(at.get(), 1));
   }
 
   /// Begins the restitution at the inner turning point: the adhesion damping is switched on, which
@@ -196,17 +224,17 @@ class Integration {
     std::array<int, 4> found = {};
     CVodeGetRootInfo(memory_.get(), found.data());
     const bool first = !field_.rebounding;
-    return field_.path.seam && found[first ? 1 : 3] != 0 && found[0] == 0 &&
+    return found[first ? 1 : 3] != 0 && found[0] == 0 &&
            (first || (found[1] == 0 && found[2] == 0));
   }
 
-  /// Continues with the law of the other side.
+  /// Continues with the law of the other side; the seam is at q = 0.
   bool pass_seam() {
     if constexpr (Law::constants > 0) {
       double& side = field_.constants.back();
       side = 1.0 - side;
     }
-    return restart(0, 0.0);
+    return has_dashpot<Law> ? restart(1, u()) : restart(0, 0.0);
   }
 
   /// Puts a sphere that has nearly settled at the bottom of the well. @return true if it has
@@ -327,24 +355,24 @@ class Integration {
   NonlinearSolver solver_;
   NonlinearSolver sensitivity_solver_;
   std::unique_ptr<void, FreeMemory> memory_;
-  double sigma_ = 0.0;
+  double sigma_ = 0.0, last_sigma_ = 0.0;
   bool ready_ = false;
 };
 
-/// Updates the largest penetration, forces and energy after a step.
+/// Updates the largest penetration, forces and energy at a place of the path.
+/// @return the dashpot's force and the others
 template <class Law>
-void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
-             std::vector<ImpactMoment>* history) {
-  const Field<Law>& f = run.field();
-  const double q = std::max(run.q(), f.path.release);
+std::pair<double, PlainForces> observe(const Field<Law>& f, double at, double u,
+                                       ImpactResult& result) {
+  const double q = std::max(at, f.path.release);
   const double x = with_values(f, [&](auto... v) { return Law::penetration(q, v...); });
-  const auto forces =
-      with_values(f, [&](auto... v) { return Law::forces(q, run.u(), f.acts(), v...); });
+  const auto forces = with_values(f, [&](auto... v) { return Law::forces(q, u, f.acts(), v...); });
   double dashpot = 0.0;
   if constexpr (has_dashpot<Law>) {
     // Under JKR it grows without limit towards the release, where it is omitted.
     const double clock = with_values(f, [&](auto... v) { return Law::clock(q, v...); });
-    dashpot = clock > 0.0 && q > f.path.release ? dashpot_power(f, q) * run.u() / clock : 0.0;
+    dashpot = clock > 0.0 && q > f.path.release ? dashpot_power(f, q) * u / clock : 0.0;
+    if (f.constants.back() == 0.0) dashpot = forces.hertz + forces.hertz_damping;
   }
   const double push =
       -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping) + dashpot;
@@ -352,9 +380,27 @@ void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactRe
   result.force_compression = std::max(result.force_compression, push);
   result.force_tension = std::max(result.force_tension, -push);
   result.energy.largest =
-      std::max({result.energy.largest, run.u() * run.u() / 2.0,
+      std::max({result.energy.largest, u * u / 2.0,
                 with_values(f, [&](auto... v) { return Law::largest_energy(q, v...); })});
+  return {dashpot, forces};
+}
+
+/// Observes the last step, and also within it if there is a budget: the largest force lies between
+/// two steps, and is known to 1e-6 of it from this many parts of a step.
+template <class Law>
+void observe_step(Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
+                  std::vector<ImpactMoment>* history) {
+  const Field<Law>& f = run.field();
+  constexpr int parts = 32;
+  for (int k = 1; options.budget && k < parts; ++k) {
+    if (const auto at = run.within_step(k / double(parts))) {
+      observe(f, at->first, at->second, result);
+    }
+  }
+  const auto [dashpot, forces] = observe(f, run.q(), run.u(), result);
   if (history != nullptr && options.budget) {
+    const double x = with_values(
+        f, [&](auto... v) { return Law::penetration(std::max(run.q(), f.path.release), v...); });
     history->push_back({run.quadrature(0), x, run.u(), -forces.hertz, -forces.hertz_damping,
                         -forces.adhesion, -forces.adhesion_damping, dashpot});
   }
@@ -391,7 +437,7 @@ ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
   ImpactResult result;
   Integration<Law> run(groups, options);
   if (!run.ready()) return result;
-  observe(run, options, result, history);
+  observe_step(run, options, result, history);
   bool turned = false;
   for (;;) {
     if (++result.steps > options.max_steps) {
@@ -400,7 +446,7 @@ ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
     }
     const int code = run.step();
     if (code < 0) return result;
-    observe(run, options, result, history);
+    observe_step(run, options, result, history);
     if (turned && run.settles()) break;
     if (code != CV_ROOT_RETURN) continue;
     if (run.at_seam()) {

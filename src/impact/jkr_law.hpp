@@ -80,6 +80,21 @@ struct JkrLaw {
     const Q pull = 6.0 * rate;
     return lambda * ((push + pull) + push * (alpha * u) + -(pull * (acts * (gamma * u))));
   }
+  template <class Q, class U, class Alpha, class Lambda, class Gamma>
+  static constexpr auto push(const Q& q, const U& u, const Alpha& alpha, const Lambda& lambda,
+                             const Gamma&) {
+    const Q z = q + 1.0;
+    const Q cube = z * z * z;
+    const Q hertz = -((q * (q * (q + 3.0) + 3.0)) * (cube * cube));
+    return lambda * (hertz + hertz * (alpha * u));
+  }
+  template <class Q, class U, class Acts, class Alpha, class Lambda, class Gamma>
+  static constexpr auto pull(const Q& q, const U& u, const Acts& acts, const Alpha&,
+                             const Lambda& lambda, const Gamma& gamma) {
+    const Q z = q + 1.0;
+    const Q adhesion = (6.0 * (q * (q * (q + 3.0) + 3.0))) * (z * z * z);
+    return lambda * (adhesion + -(adhesion * (acts * (gamma * u))));
+  }
   /// Zero at the release. At first contact it is the work that an undamped impact loses.
   template <class Q, class Alpha, class Lambda, class Gamma>
   static constexpr auto potential(const Q& q, const Alpha&, const Lambda& lambda, const Gamma&) {
@@ -95,10 +110,15 @@ struct JkrLaw {
   /// Below this, adhesion changes e by less than 1e-10 at any damping with a rebound.
   static bool vanishes(const ImpactGroups& g) { return g.beta < 1e-14; }
   /// True if small motions about the bottom of the well are overdamped: n'' = -(9/10) b^(2/3) (n -
-  /// n_0) - (alpha + gamma) b^2 n', b = beta^(3/4). Not known with a dashpot.
+  /// n_0) - ((alpha + gamma) b^2 + (6/5) kappa b^(2/3)) n', b = beta^(3/4).
   static bool overdamped(const ImpactGroups& g) {
     const double fourth_root = std::sqrt(std::sqrt(g.beta));
-    return g.kappa == 0.0 && (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
+    const double damping = (g.alpha + g.gamma) * g.beta + 1.2 * g.kappa;
+    return damping * fourth_root >= 2.0 * std::sqrt(0.9);
+  }
+  static bool holds(const ImpactGroups& g) {
+    const double dashpot = g.kappa * dashpot_unit(g);
+    return dashpot * dashpot >= 2.0 / 3.0 * strength(g) * (1.0 + path_of(g).deepest);
   }
   static double depth(const ImpactGroups& g) {
     return potential(path_of(g).resting, 0.0, strength(g), 0.0);

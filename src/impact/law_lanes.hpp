@@ -40,6 +40,13 @@ struct LawLanes {
     });
   }
 
+  /// The elastic force and the dashpot of du/dsigma.
+  [[gnu::always_inline]] Pack push(const Pack& q, const Pack& u) const {
+    return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
+      return Law::push(q, u, groups[k]..., c...);
+    });
+  }
+
   /// du/dsigma with its derivatives: variable 0 is u, variable k + 1 is group k.
   [[gnu::always_inline]] auto field_with_slopes(const Pack& q, const Pack& u,
                                                 const Pack& acts) const {

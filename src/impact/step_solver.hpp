@@ -42,6 +42,7 @@ class StepSolver {
         order_(order),
         results_(results),
         phase_(options.phase),
+        never_pulls_(options.never_pulls),
         tolerance_(options.fast_tolerance) {}
 
   void solve() {
@@ -57,14 +58,18 @@ class StepSolver {
   using Mask = typename Pack::mask_type;
   static constexpr unsigned parameters = Law::groups;
   /// A law of several hundred operations is called instead of inlined into each of the stages.
-  static constexpr bool is_long = Law::constants > 0;
+  static constexpr bool has_dashpot = Law::places.back() == place_of_kappa;
+  static constexpr bool is_long = Law::constants > 0 && !has_dashpot;
 
   // Error of mu per step, relative to mu, in units of the tolerance of q and u: the gradient needs
   // fewer digits than e^2.
   static constexpr double mu_tolerance = 10.0;
   static constexpr double smallest_step = 1e-9;
   static constexpr double smallest_fraction = 1e-3;  // of the distance to an event
-  static constexpr double most_steps = 3000.0;       // an impact takes 40
+  // Of the elastic force: the size of elastic force and dashpot at which they cease to act, or act
+  // again; the kappa below which the place does not matter; and the first step from there.
+  static constexpr double balanced = 1e-8, no_dashpot = 1e-9, step_from_there = 0.1;
+  static constexpr double most_steps = 3000.0;  // an impact takes 40
 
   struct Step {
     Pack q, u, mu;
@@ -185,8 +190,11 @@ class StepSolver {
     const Mask good = to.error <= 1.0;  // false for NaN
     const Mask event = turned_ && (to.q <= release_ || to.u >= 0.0);
     const Mask seam = crosses_seam(to.q);
-    const Mask crosses = good && !event_step_ && (seam || event || (!turned_ && to.u <= 0.0));
-    const Mask accepted = good && !crosses;
+    const Mask switches = good && passes_balance(to);
+    const Mask crosses =
+        good && !event_step_ && !switches && (seam || event || (!turned_ && to.u <= 0.0));
+    const Mask accepted = good && !crosses && !switches;
+    if constexpr (has_dashpot) approach_balance(to, switches);
     where(crosses, to_turning_) = !(seam || (turned_ && to.q <= release_));
     if constexpr (is_long) where(crosses, to_seam_) = seam;
     where(accepted, q_) = to.q;
@@ -198,7 +206,8 @@ class StepSolver {
     const Mask arrived = event_step_ && good && fraction_ == 1.0;
     where(arrived && to_turning_, u_) = 0.0;
     where(arrived && !to_turning_, q_) = event_place();
-    adapt(to.error, good, crosses);
+    adapt(to.error, good, crosses || switches);
+    if constexpr (has_dashpot) switch_at_balance(accepted && !event_step_);
     event_step_ = (event_step_ || crosses) && !arrived;
     Mask at_end = arrived;
     if constexpr (is_long) {
@@ -217,6 +226,34 @@ class StepSolver {
       if (outward[lane] && creep_[lane].is_certain(q_[lane], -u_[lane])) settled_[lane] = true;
     }
     lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
+  }
+
+  /// True for lanes whose elastic force and dashpot change the sign of their sum, or that would
+  /// come to the release before, in a step by arc length on the way out.
+  Mask passes_balance([[maybe_unused]] const Step& to) const {
+    if constexpr (has_dashpot) {
+      const Mask acting = law_.constants.back() > 0.5;
+      const Pack push = law_.push(to.q, to.u), least = balanced * abs(law_.push(to.q, Pack(0.0)));
+      return limited_ && turned_ && !event_step_ &&
+             ((acting && (push > least || to.q <= release_)) || (!acting && push < -least));
+    } else {
+      return Mask(false);
+    }
+  }
+  /// Shortens the step of these lanes to where a straight line through both sums is 0.
+  void approach_balance(const Step& to, const Mask& switches) {
+    if (!any_of(switches)) return;
+    const Pack before = law_.push(q_, u_), after = law_.push(to.q, to.u);
+    Pack part = before / (before - after);
+    where(!(part > 1e-3 && part < 0.9), part) = 0.5;
+    where(switches, length_) *= part;
+  }
+  void switch_at_balance(const Mask& accepted) {
+    const Mask now = accepted && limited_ && turned_ && q_ > release_ && !ended_ &&
+                     abs(law_.push(q_, u_)) <= balanced * abs(law_.push(q_, Pack(0.0)));
+    Pack& acting = law_.constants.back();
+    where(now, acting) = 1.0 - acting;
+    where(now, length_) = step_from_there;
   }
 
   /// The q of an event that is no turning point.
@@ -322,7 +359,8 @@ class StepSolver {
     } else {
       settle_below_[lane] = (1.0 - settled_part) * energy(resting_q_, Pack(0.0))[lane];
     }
-    if constexpr (with_gradient && Law::constants > 0) {
+    if constexpr (has_dashpot) limited_[lane] = never_pulls_ && groups.kappa > no_dashpot;
+    if constexpr (with_gradient && is_long) {
       areas_[group_of_range<Law>][lane] = -field(q_, u_).value[lane] * path.range_slope;
     }
     turned_[lane] = event_step_[lane] = to_turning_[lane] = false;
@@ -333,6 +371,7 @@ class StepSolver {
   std::span<const std::uint32_t> order_;
   std::span<ImpactResult> results_;
   AdhesionDampingPhase phase_;
+  bool never_pulls_;
   double tolerance_;  // error of q and u per step; both are of order one
   std::size_t next_ = 0;
   std::array<std::size_t, lanes> impact_ = {};  // the impact of each lane
@@ -351,6 +390,7 @@ class StepSolver {
   Mask turned_{false};      // past the inner turning point
   Mask event_step_{false};  // the next step is an event step
   Mask seam_{false};        // the law differs for q < 0
+  Mask limited_{false};     // elastic force and dashpot never pull
   Mask to_seam_{false};     // the event is the seam at q = 0
   Mask to_turning_{false};  // the event is a turning point, otherwise a release or seam
   Mask ended_{false}, settled_{false}, lost_{false};

@@ -19,10 +19,16 @@ namespace recoil {
 /// r) / dt (JkrLaw::dashpot_weight), which always dissipates energy. Brilliantov et al. (2007),
 /// Phys. Rev. E 76, 051302, use the derivative of the whole JKR force including adhesion, which
 /// would supply energy between the largest pull and the end of the contact.
+///
+/// The bulk cannot pull: with ImpactOptions::never_pulls, elastic force and dashpot together are 0
+/// from where they would (Schwager, T. & Poeschel, T. (2008), Phys. Rev. E 78, 051304), while the
+/// adhesion still pulls. The plate moves away instead; its contact ends with the elastic force.
 template <class Law>
 struct WithDashpot {
   static constexpr unsigned groups = Law::groups + 1;  ///< those of Law, then kappa
-  static constexpr unsigned constants = Law::constants;
+  static_assert(Law::constants == 0);
+  /// 1 while the elastic force and the dashpot act, 0 while they would pull and do not.
+  static constexpr unsigned constants = 1;
   static constexpr std::array<std::size_t, groups> places = [] {
     std::array<std::size_t, groups> all = {};
     for (std::size_t k = 0; k < Law::groups; ++k) all[k] = Law::places[k];
@@ -40,9 +46,7 @@ struct WithDashpot {
     all[Law::groups] = g.kappa * Law::dashpot_unit(g);
     return all;
   }
-  static std::array<double, constants> constants_of(const ImpactGroups& g) {
-    return Law::constants_of(g);
-  }
+  static std::array<double, constants> constants_of(const ImpactGroups&) { return {1.0}; }
   static LawPath path_of(const ImpactGroups& g) { return Law::path_of(g); }
 
   template <class Q, class U, class Acts, class... Values>
@@ -50,9 +54,19 @@ struct WithDashpot {
                                                             const Acts& acts,
                                                             const Values&... values) {
     return without_kappa(
+        [&](const auto&, const auto&... own) {
+          return std::get<groups>(std::tie(values...)) * push(q, u, values...) +
+                 Law::pull(q, u, acts, own...);
+        },
+        values...);
+  }
+  /// The elastic force and the dashpot alone.
+  template <class Q, class U, class... Values>
+  [[gnu::always_inline]] static constexpr auto push(const Q& q, const U& u,
+                                                    const Values&... values) {
+    return without_kappa(
         [&](const auto& kappa, const auto&... own) {
-          return Law::acceleration(q, u, acts, own...) +
-                 -(Law::dashpot_weight(q, own...) * (kappa * u));
+          return Law::push(q, u, own...) + -(Law::dashpot_weight(q, own...) * (kappa * u));
         },
         values...);
   }
@@ -99,12 +113,10 @@ struct WithDashpot {
   template <class Act, class... Values>
   [[gnu::always_inline]] static constexpr auto without_kappa(Act&& act, const Values&... values) {
     const auto all = std::forward_as_tuple(values...);
-    return [&]<std::size_t... g, std::size_t... c>(std::index_sequence<g...>,
-                                                   std::index_sequence<c...>) {
-      return act(std::get<Law::groups>(all), std::get<g>(all)...,
-                 std::get<Law::groups + 1 + c>(all)...);
+    return [&]<std::size_t... g>(std::index_sequence<g...>) {
+      return act(std::get<Law::groups>(all), std::get<g>(all)...);
     }
-    (std::make_index_sequence<Law::groups>{}, std::make_index_sequence<constants>{});
+    (std::make_index_sequence<Law::groups>{});
   }
 };
 

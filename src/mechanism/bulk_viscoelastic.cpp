@@ -4,7 +4,7 @@ namespace recoil {
 namespace {
 
 struct BulkViscoelastic {
-  static constexpr bool dashpot = true;
+  static constexpr bool dashpot = true, never_pulls = true;
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
     e.relaxation += own[0];
@@ -18,9 +18,11 @@ Mechanism bulk_viscoelastic() {
       .id = "bulk_viscoelastic",
       .title = "viscous loss in the deformed bulk",
       .dry_loss = "viscoelastic",
-      .formula = "force -(3/2) A K (r n)^(1/2) n' in both phases, in the equation of motion",
+      .formula = "force -(3/2) A K (r n)^(1/2) n' in both phases, in the equation of motion; "
+                 "it and the elastic force together push or are 0",
       .source = "Kuwabara, G. & Kono, K. (1987), Jpn. J. Appl. Phys. 26, 1230-1233; Brilliantov, "
-                "N. V. et al. (1996), Phys. Rev. E 53, 5382-5392",
+                "N. V. et al. (1996), Phys. Rev. E 53, 5382-5392; "
+                "Schwager, T. & Poeschel, T. (2008), Phys. Rev. E 78, 051304 (end of the push)",
       .fingerprint = "1 - e^2 ~ V^(1/5) d^(-1), independent of the target's surface energy; V* ~ "
                      "d^(-17/12). At one size it equals C_A: A = (2/3) C_A n_eq",
       .parameters = {{.name = "bulk_relaxation",

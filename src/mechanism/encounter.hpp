@@ -178,6 +178,14 @@ struct Encounter {
     const T root = sqrt(contact_radius * n) / mass();
     return root * adhesion_force * (4.0 * std::numbers::pi) - n * root * (stiffness * 2.0);
   }
+  /// Makes the sphere larger by `factor`; f0 ~ R*^(1/3).
+  void resize(const T& factor) {
+    const T before = radius();
+    diameter *= factor;
+    const T growth = radius() / before;
+    contact_radius *= growth;
+    adhesion_force *= power(growth, 1.0 / 3.0);
+  }
   /// Takes `energy` [J] from the sphere.
   void dissipate(const T& energy) { square -= 2.0 * energy / mass(); }
 

@@ -6,9 +6,14 @@
 namespace recoil {
 namespace {
 
-/// From this kappa on the dashpot stops the sphere: e^2 < 5e-10 (falling as kappa^-10), while the
-/// number of steps would grow with kappa^2 until the solver fails.
-constexpr double overdamped = 12.0;
+/// From this kappa on the dashpot stops the sphere. One that pulls leaves e^2 < 5e-10 (falling as
+/// kappa^-10), while the number of steps would grow with kappa^2 until the solver fails; one that
+/// does not pull leaves e^2 < 1e-8 (falling as kappa^(-10/3)). Without adhesion it is solved
+/// further.
+template <class T>
+double stopping(bool pulls, const T& beta) {
+  return pulls ? 12.0 : value_of(beta) > 0.0 ? 300.0 : 1e6;
+}
 
 /// For spheres that differ in another quantity than size.
 const MixedSizes no_sizes;
@@ -18,10 +23,9 @@ template <class T>
 struct Groups {
   T alpha, beta, gamma, kappa, range;
 
-  bool stops() const { return value_of(kappa) > overdamped; }
-  ImpactGroups values() const {
+  ImpactGroups values(bool pulls) const {
     return {value_of(alpha), value_of(beta), value_of(gamma),
-            stops() ? overdamped : value_of(kappa), value_of(range)};
+            std::min(value_of(kappa), stopping(pulls, beta)), value_of(range)};
   }
 };
 
@@ -43,73 +47,14 @@ Groups<T> groups_at_contact(const Encounter<T>& e) {
           1.5 * e.relaxation * e.velocity / e.scale(), e.range()};
 }
 
-/// e^2 of a Hertz contact with the dampings alpha and kappa that ends when its force vanishes,
-/// before n = 0: after that the dashpot would pull, although nothing holds the sphere (Schwager, T.
-/// & Poeschel, T. (2008), Phys. Rev. E 78, 051304). Integrated by the classical Runge-Kutta method
-/// in the regularised time. du/dsigma = 0 at the end, so that the slopes of e^2 do not depend on
-/// the place of the end.
-template <class N>
-N square_without_pull(const N& alpha, const N& kappa) {
-  constexpr int steps = 128;
-  const auto force = [&](const N& q, const N& u) {  // over q^2, outward
-    return q * q * (1.0 + alpha * u) + kappa * u;
-  };
-  const auto push = [&](const N& q, const N& u) { return -2.0 * (q * q * force(q, u)); };
-  N q(0.0), u(1.0), next_q, next_u;
-  const auto parts_within = [&](double h) {
-    const N ka = push(q, u);
-    const N ub = u + 0.5 * h * ka;
-    const N kb = push(q + 0.5 * h * u, ub);
-    const N uc = u + 0.5 * h * kb;
-    const N kc = push(q + 0.5 * h * ub, uc);
-    const N ud = u + h * kc;
-    const N kd = push(q + h * uc, ud);
-    next_q = q + h / 6.0 * (u + 2.0 * ub + 2.0 * uc + ud);
-    next_u = u + h / 6.0 * (ka + 2.0 * kb + 2.0 * kc + kd);
-    return value_of(next_q) <= 0.0 ||
-           (value_of(next_u) < 0.0 && value_of(force(next_q, next_u)) < 0.0);
-  };
-  const double h = 1.5 / (steps * (1.0 + std::cbrt(value_of(kappa))));
-  while (!parts_within(h)) {
-    q = next_q;
-    u = next_u;
-  }
-  double low = 0.0, high = h;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (parts_within(middle) ? high : low) = middle;
-  }
-  return next_u * next_u;
-}
-
-/// The same with the derivatives of the groups.
 template <class T>
-T square_without_pull(const Groups<T>& groups) {
-  constexpr double most_kappa = 1e6;  // e is 1e-10 there
-  const double alpha = value_of(groups.alpha);
-  const double kappa = std::min(value_of(groups.kappa), most_kappa);
-  if constexpr (std::is_same_v<T, double>) {
-    return square_without_pull<double>(alpha, kappa);
-  } else {
-    using N = Dual<2>;
-    const N found = square_without_pull<N>(N(alpha, 0), N(kappa, 1));
-    T square(found.value);
-    add_slopes(square, found.slope[0], groups.alpha);
-    add_slopes(square, found.slope[1], groups.kappa);
-    return square;
-  }
-}
-
-template <class T>
-T base_square(const Groups<T>& groups, const ImpactResult& impact) {
-  if (value_of(groups.kappa) > 0.0 && value_of(groups.beta) == 0.0) {
-    return square_without_pull(groups);
-  }
+T base_square(const Groups<T>& groups, bool pulls, const ImpactResult& impact) {
   T square = impact.restitution_squared;
   add_slopes(square, impact.gradient[0], groups.alpha);
   add_slopes(square, impact.gradient[1], groups.beta);
   add_slopes(square, impact.gradient[2], groups.gamma);
-  if (!groups.stops()) add_slopes(square, impact.gradient[3], groups.kappa);
+  if (value_of(groups.kappa) <= stopping(pulls, groups.beta))
+    add_slopes(square, impact.gradient[3], groups.kappa);
   add_slopes(square, impact.gradient[4], groups.range);
   return square;
 }
@@ -171,6 +116,7 @@ ExtendedImpacts::ExtendedImpacts(std::vector<const Mechanism*> chain,
       spreads_.push_back(mechanism);
     }
     dashpot_ = dashpot_ || mechanism->dashpot;
+    never_pulls_ = never_pulls_ || mechanism->never_pulls;
   }
   groups_.resize(points_.size() * nodes_);
   results_.resize(points_.size() * nodes_);
@@ -185,6 +131,7 @@ long ExtendedImpacts::evaluate(std::span<const double> values, ImpactOptions opt
                                SimulateImpacts simulate) {
   assert(values.size() == points_.size() * value_count());
   options.dashpot = dashpot_;
+  options.never_pulls = never_pulls_;
   const auto with = [&](auto& work) {
     using Work = typename std::decay_t<decltype(work)>::element_type;
     if (!work) work = std::make_unique<Work>();
@@ -236,7 +183,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       e = start;
       approach<T>(chain_, own, node, nodes_, e);
       work.groups[at] = groups_at_contact(e);
-      groups_[at] = work.groups[at].values();
+      groups_[at] = work.groups[at].values(!never_pulls_);
     }
   }
   const long handed_over = simulate(groups_, options, results_);
@@ -249,7 +196,8 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       const ImpactResult& impact = results_[i * nodes_ + node];
       if (!impact.usable()) answer.outcome = impact.outcome;
       Encounter<T>& e = work.encounters[i * nodes_ + node];
-      e.square += base_square(work.groups[i * nodes_ + node], impact) * (e.velocity * e.velocity);
+      e.square += base_square(work.groups[i * nodes_ + node], !never_pulls_, impact) *
+                  (e.velocity * e.velocity);
       back_along<T>(chain_, own, [&](const MechanismLaw<T>& law, std::span<const T> its) {
         if (law.after != nullptr) law.after(e, its);
       });
@@ -294,12 +242,16 @@ std::span<const double> ExtendedImpacts::slopes(std::size_t i) const {
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values) {
   std::size_t nodes = 1;
-  for (const Mechanism* mechanism : chain) nodes *= mechanism->spreads() ? spread_nodes : 1;
   ContactView view;
+  for (const Mechanism* mechanism : chain) {
+    nodes *= mechanism->spreads() ? spread_nodes : 1;
+    view.dashpot = view.dashpot || mechanism->dashpot;
+    view.never_pulls = view.never_pulls || mechanism->never_pulls;
+  }
   view.encounter = approaching<double>(point, values, point.velocity, point.diameter);
   approach<double>(chain, values.subspan(base_directions - 2), nodes / 2, nodes, view.encounter);
   const Encounter<double>& e = view.encounter;
-  view.groups = groups_at_contact(e).values();
+  view.groups = groups_at_contact(e).values(!view.never_pulls);
   const double energy = e.mass() * e.velocity * e.velocity;
   view.scales = {e.scale(), e.velocity, e.scale() / e.velocity, energy / e.scale(), energy};
   return view;
@@ -318,7 +270,7 @@ WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
                               if (law.before != nullptr) law.before(e, its);
                               energy.in.push_back(before - e.velocity * e.velocity - e.square);
                             });
-  const double returned = base_square(groups_at_contact(e), impact) * e.velocity * e.velocity;
+  const double returned = impact.restitution_squared * e.velocity * e.velocity;
   energy.contact = e.velocity * e.velocity - returned;
   e.square += returned;
   back_along<double>(chain, own, [&](const MechanismLaw<double>& law, std::span<const double> its) {

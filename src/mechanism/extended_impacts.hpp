@@ -53,7 +53,7 @@ class ExtendedImpacts {
   std::size_t value_count() const { return base_directions - 2 + own_count_; }
 
   /// @param values [points x value_count()]
-  /// @param options phase, gradient and tolerances; dashpot is set here
+  /// @param options phase, gradient and tolerances; dashpot and never_pulls are set here
   /// @return the result of `simulate`: the number of impacts solved by the reference
   long evaluate(std::span<const double> values, ImpactOptions options, SimulateImpacts simulate);
 
@@ -80,7 +80,7 @@ class ExtendedImpacts {
   std::size_t own_count_ = 0;  // parameters of the mechanisms in the chain
   bool materials_ = false;
   std::size_t nodes_ = 1;  ///< impacts per point
-  bool dashpot_ = false;
+  bool dashpot_ = false, never_pulls_ = false;
   std::vector<ImpactGroups> groups_;
   std::vector<ImpactResult> results_;
   std::vector<ExtendedAnswer> answers_;
@@ -98,6 +98,7 @@ struct ContactView {
   Encounter<double> encounter;  ///< at the beginning of the contact
   ImpactGroups groups;
   ImpactScales scales;
+  bool dashpot = false, never_pulls = false;  ///< see ImpactOptions
 };
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values);

@@ -53,11 +53,13 @@ Mechanism gas_film() {
           "between walls with the slip length b = 1.15 mean free paths; L / r is the drag over the "
           "distance L with Cunningham's correction C, and the logarithm is the effect of the wall "
           "on it; viscosity and mean free path of air at the stated temperature, else at 293 K",
-      .source = "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
-                "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
-                "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), "
-                "Chem. Eng. Sci. 16, 242-251 (sphere and wall). The drag is that of Stokes; at Re "
-                "= 10 the true drag is 1.7 times as large",
+      .source =
+          "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
+          "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
+          "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), "
+          "Chem. Eng. Sci. 16, 242-251 (sphere and wall). The drag is that of Stokes; at Re "
+          "= 10 the true drag is 1.72 times as large (Brown, P. P. & Lawler, D. F. (2003), J. "
+          "Environ. Eng. 129, 222-231)",
       .fingerprint = "1 - e^2 ~ V^(-1) d^(-1) (d^(-2) if drag prevails), independent of the "
                      "target; vanishes in vacuum",
       .parameters =

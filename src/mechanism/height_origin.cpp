@@ -36,6 +36,7 @@ Mechanism height_origin() {
       .title = "drop and rebound heights refer to different points",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::height,
+      .needs_flat = true,
       .formula = "heights h = V^2 / 2g: the rebound height is read as h_2 + delta, the drop height "
                  "as h_1 + s delta; e^2 = (e_0^2 (h_1 - s delta) + delta) / h_1 with h_1 as read",
       .source = "Galileo's law of falling bodies; a height is that of the sphere's lowest point "

@@ -10,7 +10,7 @@ constexpr double parting_work = 7.092195971863959;
 /// mu = (R W^2 / (E*^2 z0^3))^(1/3).
 double tabor_parameter(const Encounter<double>& sphere, std::span<const double> own) {
   const double ratio = own[0] * sphere.adhesion_energy / sphere.reduced_modulus();
-  return std::cbrt(0.5 * sphere.diameter * ratio * ratio) / equilibrium_separation;
+  return std::cbrt(sphere.radius() * ratio * ratio) / equilibrium_separation;
 }
 
 struct JkrHysteresis {

@@ -109,7 +109,8 @@ struct Mechanism {
   std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
              MechanismLaw<SeveralDirections>, MechanismLaw<ManyDirections>>
       laws;
-  bool dashpot = false;  ///< it sets Encounter::relaxation, which needs a law with a dashpot
+  bool dashpot = false;      ///< it sets Encounter::relaxation, which needs a law with a dashpot
+  bool never_pulls = false;  ///< that dashpot and the elastic force together never pull
 
   template <class T>
   const MechanismLaw<T>& law() const {
@@ -178,6 +179,7 @@ Mechanism make_mechanism(MechanismInfo info) {
             mechanism_detail::law_for<Law, SeveralDirections>(),
             mechanism_detail::law_for<Law, ManyDirections>()};
   if constexpr (requires { Law::dashpot; }) m.dashpot = Law::dashpot;
+  if constexpr (requires { Law::never_pulls; }) m.never_pulls = Law::never_pulls;
   return m;
 }
 

@@ -34,14 +34,16 @@ struct PlasticYield {
   static void before(Encounter<T>& e, std::span<const T> own) {
     const T E = e.reduced_modulus();
     const double pi = std::numbers::pi;
-    const T rate = logarithm(e.velocity) - 5.0 / 3.0 * logarithm(e.diameter / rate_diameter);
+    const T r = e.radius();
+    const T density =
+        e.mass() / (r * r * r * (4.0 / 3.0 * pi));  // of two spheres: as one on a flat
+    const T rate = logarithm(e.velocity) - 5.0 / 3.0 * logarithm(r / (0.5 * rate_diameter));
     const T pressure = own[0] * exponential(own[1] * rate);
     const T speed = e.velocity * e.velocity;
     // m V^2 / 2 and W in the units of `adhesive_yield`.
-    const T energy = e.density * power(E / pi, 4.0) * speed / power(pressure, 5.0) * (32.0 / 3.0);
+    const T energy = density * power(E / pi, 4.0) * speed / power(pressure, 5.0) * (32.0 / 3.0);
     T tension(0.0);
     if (value_of(e.adhesion_force) > 0.0 && value_of(own[2]) > 0.0) {
-      const T r = e.radius();
       const T work =
           own[2] * power(2.0 * pi * e.adhesion_force, 1.5) / (sqrt(e.stiffness * r) * (6.0 * pi));
       tension = E * (2.0 / pi) * sqrt(work / (r * pressure)) / pressure;
@@ -49,8 +51,7 @@ struct PlasticYield {
     const AdhesiveYield yield = adhesive_yield(value_of(energy), value_of(tension));
     if (!yield.yielded) return;
     e.flow_pressure = value_of(pressure);
-    e.flow_radius =
-        yield.contact * pi * value_of(e.radius()) * e.flow_pressure / (2.0 * value_of(E));
+    e.flow_radius = yield.contact * pi * value_of(r) * e.flow_pressure / (2.0 * value_of(E));
     T recovered = yield.recovered;
     add_slopes(recovered, yield.recovered_by_energy, energy);
     add_slopes(recovered, yield.recovered_by_tension, tension);
@@ -58,7 +59,7 @@ struct PlasticYield {
     add_slopes(flatness, yield.flatness_by_energy, energy);
     add_slopes(flatness, yield.flatness_by_tension, tension);
 
-    const T past = own[3] * own[3] * speed * e.density / (finite_deformation * pressure);
+    const T past = own[3] * own[3] * speed * density / (finite_deformation * pressure);
     const T back = recovered / energy * speed / power(1.0 + past, 0.25);
     // A sphere that does not come back to zero approach is captured. Its base impact is so slow
     // that it does not matter.
@@ -86,7 +87,8 @@ Mechanism plastic_yield() {
                  "approach, a_0^3 = 2 pi W R_p^2 / E*; W = s (2 pi f0)^(3/2) / (6 pi (K r)^(1/2)). "
                  "Without adhesion, above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2): e_p^2 = (6 sqrt(3) "
                  "/ 5) (1 - y^2/6) (y / (y + 2 (6/5 - y^2/5)^(1/2)))^(1/2), y = V_Y / V. Times (1 "
-                 "+ (c V / V_t)^2)^(-1/4), V_t = 0.020 (p / rho)^(1/2)",
+                 "+ (c V / V_t)^2)^(-1/4), V_t = 0.020 (p / rho)^(1/2). Between two spheres "
+                 "d is 2 R* and rho is m* / ((4/3) pi R*^3)",
       .source =
           "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162; Johnson, K. L. (1985), "
           "Contact Mechanics, section 11.5; for c Wu, C.-Y., Li, L.-Y. & Thornton, C. (2003), Int. "

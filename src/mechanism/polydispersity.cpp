@@ -21,11 +21,7 @@ T logarithm_at(const MixedSizes& sizes, const T& s, double z) {
 struct Polydispersity {
   template <class T>
   static void vary(Encounter<T>& e, std::span<const T> own, double z) {
-    const T shift = logarithm_at(e.at->sizes, own[0], z);
-    const T factor = exponential(shift);
-    e.diameter *= factor;
-    e.contact_radius *= factor;
-    e.adhesion_force *= exponential(1.0 / 3.0 * shift);
+    e.resize(exponential(logarithm_at(e.at->sizes, own[0], z)));
   }
 };
 

@@ -23,6 +23,7 @@ Mechanism probe_plane() {
       .title = "the measuring plane is higher than the correction assumes",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::height,
+      .needs_flat = true,
       .formula = "spheres fall freely: V^2 = V_p^2 + 2 g h before the contact, V_p^2 = V^2 - 2 g h "
                  "after it",
       .source = "Galileo's law of falling bodies; Li, X., Dunn, P. F. & Brach, R. M. (1999) "

@@ -61,7 +61,8 @@ T integrate_loss(const Rate& rate, const Sloped& sloped) {
     for (int newton = 0; newton < 40 && !done; ++newton) {
       inverse = (Eigen::Matrix3d::Identity() - couplings * slopes.asDiagonal()).inverse();
       Stages change = inverse * miss;
-      done = change.cwiseAbs().maxCoeff() < 1e-6;  // the next one is of the order of its square
+      // The next one is of the order of its square, over the 1e-4 on which the rates are smooth.
+      done = change.cwiseAbs().maxCoeff() < 1e-8;
       // Halves the step while the error grows.
       Stages next = miss_at(at - change);
       for (int half = 0; half < 12 && !done && !(next.squaredNorm() < miss.squaredNorm()); ++half) {

@@ -6,10 +6,7 @@ namespace {
 struct SizeCalibration {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
-    const T factor = 1.0 + own[0];
-    e.diameter *= factor;
-    e.contact_radius *= factor;
-    e.adhesion_force *= power(factor, 1.0 / 3.0);
+    e.resize(1.0 + own[0]);
   }
 };
 

@@ -6,8 +6,8 @@ namespace {
 struct SizeLaw {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
-    const T ratio = logarithm(e.diameter / e.at->reference_diameter);
-    e.adhesion_force *= exponential((own[0] - 1.0 / 3.0) * ratio);
+    const T ratio = e.radius() / relative_radius(e.at->reference_diameter, e.at->surface_diameter);
+    e.adhesion_force *= exponential((own[0] - 1.0 / 3.0) * logarithm(ratio));
   }
 };
 

@@ -50,7 +50,8 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
     const ContactView view = contact_view(model, theta, at);
     out.groups = view.groups;
     out.scales = view.scales;
-    options.dashpot = true;
+    options.dashpot = view.dashpot;
+    options.never_pulls = view.never_pulls;
     out.conditions.velocity = view.encounter.velocity;
     out.diameter = value_of(view.encounter.diameter);
     out.conditions.adhesion_force = view.encounter.adhesion_force;

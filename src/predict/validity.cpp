@@ -105,7 +105,8 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   const ContactView view = contact_view(model, theta, point);
   ImpactOptions options = model.impact_options(false);
   options.budget = true;
-  options.dashpot = view.groups.kappa != 0.0;
+  options.dashpot = view.dashpot;
+  options.never_pulls = view.never_pulls;
   const ImpactResult impact = simulate_impact(view.groups, options);
   if (!impact.usable()) return {};
 

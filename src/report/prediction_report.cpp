@@ -121,7 +121,8 @@ Difference largest_difference(const PolydispersePrediction& mixture) {
 }
 
 /// The difference between the conventions, and the convention nearest to the points.
-std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
+std::vector<Sentence> mixture_words(const Analysis& analysis,
+                                    const PolydispersePrediction& mixture) {
   std::vector<Sentence> words = {
       say("{} to {} {um} in {} sizes, {d10} = {} {um}; capture below {} m/s for the smallest and "
           "{} m/s for the largest",
@@ -148,7 +149,9 @@ std::vector<Sentence> mixture_words(const PolydispersePrediction& mixture) {
             "alone {}",
             best->second, digits(best->first, 2), digits(*mixture.miss_single.rmse, 2)));
   }
-  words.emplace_back("the fit uses one diameter per point; the mixture is not fitted");
+  if (!averages_over_sizes(analysis.fitted.model, mixture.dataset)) {
+    words.emplace_back("the fit uses one diameter per point; the mixture is not fitted");
+  }
   return words;
 }
 
@@ -166,7 +169,7 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
              {"measuring plane",
               say("{} mm above the surface: rebounds below {} m/s are not detected",
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};
-  mixture_section.blocks.emplace_back(list_of_sentences(mixture_words(mixture)));
+  mixture_section.blocks.emplace_back(list_of_sentences(mixture_words(analysis, mixture)));
   return {std::move(mixture_section),
           shown_section("averages", "Weighted averages", {averages_table(mixture)}),
           shown_section("misses", "Distance of the points", {misses_table(mixture)})};
@@ -228,7 +231,7 @@ Blocks mixture_blocks(const Analysis& analysis) {
   Blocks blocks;
   for (const PolydispersePrediction& mixture : analysis.mixtures) {
     append(blocks, {Figures{{mixture_figure(analysis, mixture)}},
-                    list_of_sentences(mixture_words(mixture)), misses_table(mixture)});
+                    list_of_sentences(mixture_words(analysis, mixture)), misses_table(mixture)});
   }
   return blocks;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
@@ -105,6 +106,50 @@ TEST(Nearby, AMinimumAtABoundIsFoundThere) {
     EXPECT_NEAR(result.theta[1], 0.25, 1e-6);
     EXPECT_TRUE(result.at_bound[0]);
     EXPECT_FALSE(result.at_bound[1]);
+  }
+}
+
+TEST(Descents, DoNotDependOnTheUnitsOfTheParameters) {
+  for (const Strategy by : {Strategy::box_descent, Strategy::trust_region}) {
+    LeastSquaresOptions options;
+    options.strategies = {by};
+    int evaluations = 0;
+    const LeastSquaresProblem problem = noisy_decay(3.0, 0.4, evaluations);
+    const LeastSquaresResult plain = minimise(problem, std::array{1.0, 1.0}, options);
+    const int needed = std::exchange(evaluations, 0);
+    const double units[] = {std::ldexp(1.0, 60), std::ldexp(1.0, -90)};  // cost no digit
+    LeastSquaresProblem in_units = problem;
+    in_units.evaluate = [&](std::span<const double> t, std::span<double> r, std::span<double> j) {
+      if (!problem.evaluate(std::array{t[0] / units[0], t[1] / units[1]}, r, j)) return false;
+      for (std::size_t i = 0; i < j.size(); ++i) j[i] /= units[i % 2];
+      return true;
+    };
+    const LeastSquaresResult result = minimise(in_units, std::array{units[0], units[1]}, options);
+    ASSERT_TRUE(plain.converged && result.converged) << result.message;
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(result.theta[k], plain.theta[k] * units[k]) << k;
+    EXPECT_EQ(evaluations, needed);
+  }
+}
+
+TEST(Descents, AValueNearABoundOfZeroIsNotAtTheBound) {
+  // r = 10^19 t - 1 +- 0.1, like a Hamaker constant of 1e-19 J, and t >= 0.
+  LeastSquaresProblem problem = unbounded(2, 1);
+  problem.lower[0] = 0.0;
+  problem.evaluate = [](std::span<const double> t, std::span<double> r, std::span<double> j) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      r[i] = 1e19 * t[0] - (i == 0 ? 0.9 : 1.1);
+      if (!j.empty()) j[i] = 1e19;
+    }
+    return true;
+  };
+  for (const Strategy by : {Strategy::box_descent, Strategy::trust_region}) {
+    LeastSquaresOptions options;
+    options.strategies = {by};
+    const LeastSquaresResult result = minimise(problem, std::array{3e-20}, options);
+    ASSERT_TRUE(result.converged) << result.message;
+    EXPECT_NEAR(result.theta[0], 1e-19, 1e-28);
+    EXPECT_FALSE(result.at_bound[0]);
+    EXPECT_NEAR(result.covariance[0], 0.5e-38, 1e-45);
   }
 }
 

@@ -75,6 +75,52 @@ TEST(Dashpot, BothSolversAgreeWithAnIndependentIntegratorAndItsComplexStep) {
   }
 }
 
+TEST(Dashpot, ThatNeverPullsIsThatOfTheIndependentIntegrator) {
+  using Complex = std::complex<double>;
+  constexpr double step = 1e-4;  // across the end of the push it is good to its square
+  for (const ImpactGroups& g :
+       {ImpactGroups{0.0, 0.0, 0.0, 0.3}, ImpactGroups{0.02, 0.05, 0.1, 0.4},
+        ImpactGroups{0.1, 1e-6, 1.0, 2.0}, ImpactGroups{0.0, 1e-4, 0.01, 12.5},
+        ImpactGroups{0.05, 0.7, 0.3, 0.8}, ImpactGroups{0.0, 1.5, 0.0, 1e-3}}) {
+    ImpactOptions options = with_dashpot();
+    options.never_pulls = true;
+    const ImpactResult fast = simulate_impact_fast(g, options);
+    const ImpactResult reference = simulate_impact(g, options);
+    ASSERT_TRUE(fast.usable() && reference.usable());
+    const independent::Groups<double> same{g.alpha, g.beta, g.gamma, g.kappa, true};
+    EXPECT_NEAR(reference.restitution_squared, independent::twice_energy_left(same, false, step),
+                1e-7);
+    EXPECT_NEAR(fast.restitution_squared, reference.restitution_squared, 1e-9);
+    for (std::size_t k = 0; k < 4; ++k) {
+      independent::Groups<Complex> moved{g.alpha, g.beta, g.gamma, g.kappa, true};
+      (k == 0   ? moved.alpha
+       : k == 1 ? moved.beta
+       : k == 2 ? moved.gamma
+                : moved.kappa) += Complex(0.0, 1e-30);
+      const double slope = independent::twice_energy_left(moved, false, step).imag() / 1e-30;
+      EXPECT_NEAR(reference.gradient[k], slope, 1e-3 * std::max(1.0, std::abs(slope))) << k;
+      EXPECT_NEAR(fast.gradient[k], reference.gradient[k], 1e-6 * std::max(1.0, std::abs(slope)))
+          << k;
+    }
+  }
+}
+
+TEST(Dashpot, NeverPullsAtVanishingAdhesionAsWithoutOne) {
+  for (const bool limited : {false, true}) {
+    for (const double kappa : {0.02, 0.4, 3.0}) {
+      ImpactOptions options = with_dashpot();
+      options.never_pulls = limited;
+      const double without = simulate_impact({0.05, 0.0, 0.1, kappa}, options).restitution_squared;
+      for (const AdhesionLaw law : {AdhesionLaw::ring, AdhesionLaw::jkr, AdhesionLaw::dmt}) {
+        options.adhesion = law;
+        const ImpactGroups g{0.05, 1e-12, 0.1, kappa};
+        EXPECT_NEAR(simulate_impact_fast(g, options).restitution_squared, without, 1e-7) << kappa;
+        EXPECT_NEAR(simulate_impact(g, options).restitution_squared, without, 1e-7) << kappa;
+      }
+    }
+  }
+}
+
 TEST(Dashpot, WithoutOneNothingChanges) {
   const ImpactGroups g{0.02, 0.5, 0.3};
   ImpactOptions plain;
@@ -95,9 +141,17 @@ TEST(Dashpot, TheEnergyBudgetCloses) {
   ImpactOptions options = with_dashpot();
   options.gradient = false;
   options.budget = true;
-  const ImpactResult impact = simulate_impact({0.05, 0.4, 0.2, 0.1}, options);
-  EXPECT_GT(impact.energy.dashpot_loss, 0.01);
-  EXPECT_NEAR(impact.energy.audit(), 0.0, 1e-9);
+  for (const bool never_pulls : {false, true}) {
+    options.never_pulls = never_pulls;
+    for (const double beta : {0.0, 0.01, 0.4}) {
+      const ImpactResult impact = simulate_impact({0.05, beta, 0.2, 0.1}, options);
+      EXPECT_GT(impact.energy.dashpot_loss, 0.01);
+      EXPECT_NEAR(impact.energy.audit(), 0.0, 1e-9);
+      if (never_pulls && beta == 0.0) {
+        EXPECT_LE(impact.force_tension, 1e-9);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -374,14 +374,43 @@ TEST(Dashpots, ThatStopASphereAreAnsweredAtOnce) {
   }
   EXPECT_NEAR(at(1e4).square / at(1e5).square, std::pow(10.0, 10.0 / 3.0), 20.0);
   EXPECT_LT(at(1e8).square, 1e-18);
-  // With adhesion the contact ends at n = 0, and nothing is left of e beyond kappa = 12.
+  // A little adhesion changes little, to 1e-8 where it stops.
   const auto sticky = [&](double kappa) {
     return one_point::ask(kSoft, {"bulk_viscoelastic"}, {kappa * unit}, kDiameter, V,
                           {0.0, 0.0, 1e-9});
   };
-  EXPECT_LT(sticky(11.99).square, 5e-10);
-  EXPECT_NEAR(sticky(1e4).square, sticky(11.99).square, 1e-11);
-  EXPECT_EQ(sticky(1e4).handed_over + sticky(11.99).handed_over, 0);
+  for (const double kappa : {1.0, 11.99, 100.0, 1e4}) {
+    EXPECT_NEAR(sticky(kappa).square, at(kappa).square, 1e-8) << kappa;
+    EXPECT_EQ(sticky(kappa).handed_over, 0) << kappa;
+  }
+  // A plate pulls the sphere back, as long as it is pressed: e^2 ~ kappa^-10.
+  const double m = mass(kSoft, kDiameter);
+  const auto plate = [&](double kappa) {
+    return one_point::ask(kSoft, {"plate_flexure"}, {kappa * unit / m}, kDiameter, V).square;
+  };
+  EXPECT_LT(plate(11.99), 5e-10);
+  EXPECT_NEAR(plate(1e4), plate(11.99), 1e-11);
+}
+
+TEST(PlateFlexure, HoldsTheSphereAsLongAsItIsPressed) {
+  // n'' = -F / m - F' / Z with F = K sqrt(r) n^(3/2) until n = 0: a steel ball of 20 mm (207 GPa,
+  // 0.3, 7850 kg/m3) at 1 m/s on glass (69 GPa, 0.23, 2500 kg/m3) of 10, 8, 6 and 4 mm, by a
+  // classical Runge-Kutta method in Python.
+  ImpactSystem system;
+  system.particle = {"steel", 7850.0, 207e9, 0.3, {}};
+  system.surface = {"glass", 2500.0, 69e9, 0.23, {}};
+  system.adhesion_energy = 0.0;
+  system.reference_diameter = 0.02;
+  const Surroundings at = one_point::around(system);
+  const double e[] = {0.5442529176, 0.3882812453, 0.1787478820, 0.0108473157};
+  for (int k = 0; k < 4; ++k) {
+    const double H = 0.01 - 0.002 * k;
+    const double Z = 4.0 / std::sqrt(3.0) * H * H * std::sqrt(69e9 * 2500.0 / (1.0 - 0.23 * 0.23));
+    for (const double f0 : {0.0, 1e-9}) {
+      EXPECT_NEAR(square(at, {"plate_flexure"}, {1.0 / Z}, 0.02, 1.0, {0.0, 0.0, f0}), e[k] * e[k],
+                  1e-7);
+    }
+  }
 }
 
 TEST(ElasticWaves, RadiationOfAHalfSpace) {

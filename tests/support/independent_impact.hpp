@@ -14,6 +14,7 @@ template <class T>
 struct Groups {
   T alpha, beta, gamma;
   T kappa = T(0.0);
+  bool never_pulls = false;  ///< elastic force and dashpot together push or are 0
 };
 
 /// Twice the mechanical energy at release or at the first outer turning point, in units of m V^2.
@@ -22,7 +23,9 @@ T twice_energy_left(const Groups<T>& g, bool damps_in_both_phases, double step =
   bool rebound_phase = false;
   const auto slope = [&](const T& q, const T& u) -> T {
     const T damping = (rebound_phase || damps_in_both_phases) ? T(1.0) - g.gamma * u : T(1.0);
-    return 2.0 * q * q * (g.beta * damping - q * q * (1.0 + g.alpha * u) - g.kappa * u);
+    T push = q * q * (1.0 + g.alpha * u) + g.kappa * u;
+    if (g.never_pulls && real_part(push) < 0.0) push = T(0.0);
+    return 2.0 * q * q * (g.beta * damping - push);
   };
   // mode 0: steps of sigma; 1: steps of u (dq/du = u/f); 2: steps of q (du/dq = f/u)
   const auto advance = [&](T& q, T& u, const T& h, int mode) {
