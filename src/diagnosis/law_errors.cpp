@@ -1,7 +1,9 @@
 #include "diagnosis/law_errors.hpp"
 
+#include <cmath>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
@@ -27,17 +29,16 @@ std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<cons
 
 }  // namespace
 
-LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
-  LawErrors part{mechanism, base, {}};
-  part.functions.resize(static_cast<Eigen::Index>(points.size()), functions.cols());
-  if (functions.cols() > 0) part.functions = functions(points, Eigen::all);
-  return part;
+LawErrors allowed_law_errors(std::optional<double> stated, const Observations& data) {
+  LawErrors laws{sizes_of_law_error(), smooth_functions(data)};
+  if (stated) laws.sizes = {{law_error_of_base * *stated, 1.0}};
+  return laws;
 }
 
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
                                                  const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
-                                                 const LawErrors& laws) {
+                                                 const Eigen::MatrixXd& functions, double size) {
   const ImpactModel& model = candidate.model;
   const std::vector<double> full(theta.begin(), theta.end());
   PointPredictor predictor(model, data.conditions());
@@ -46,12 +47,12 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
   if (!bare) return std::nullopt;
   std::vector<Eigen::VectorXd> sizes;  // size of each error, in e^2 [points]
-  sizes.push_back(laws.base * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
+  sizes.push_back(size * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
   for (const Mechanism* mechanism : model.chain) {
     const std::optional<Eigen::VectorXd> less =
         squares(predictor, without_mechanism(model, full, *mechanism));
     if (!less) return std::nullopt;
-    sizes.push_back(laws.mechanism *
+    sizes.push_back(size / law_error_of_base *
                     (*all - *less).array().min(most_loss).max(-most_loss).matrix());
   }
   Eigen::VectorXd slopes(all->size());
@@ -60,21 +61,38 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
     slopes(i) =
         weighted_residual(data.points[k], weights.points[k], (*all)(i), data.noise.student).slope;
   }
-  const Eigen::Index rank = laws.functions.cols();
+  const Eigen::Index rank = functions.cols();
   Eigen::MatrixXd columns(slopes.size(), rank * static_cast<Eigen::Index>(sizes.size()));
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
-        slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
+        slopes.cwiseProduct(sizes[k]).asDiagonal() * functions;
   }
   whiten_shared(data, weights, columns);
   return columns;
 }
 
-Refit under_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
-                       Refit refit, const LawErrors& laws) {
-  if (laws.none() || !refit.usable) return refit;
-  const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
+Refit refit_with_law_error(const Candidate& candidate, const Observations& data,
+                           const Weights& weights, Refit refit, const Eigen::MatrixXd& functions,
+                           double size) {
+  for (int round = 0; round < rounds && refit.usable && size > 0.0; ++round) {
+    const auto columns = law_error_columns(candidate, data, weights, refit.theta, functions, size);
+    if (!columns) return {};
+    refit = refit_candidate(candidate, data, weights, refit.theta, 0,
+                            std::make_shared<const Discrepancy>(*columns));
+    refit.law_error = size;
+  }
+  return refit;
+}
+
+namespace {
+
+/// `refit`, evaluated under the covariance of errors of one size at its parameters.
+Refit screened_with(const Candidate& candidate, const Observations& data, const Weights& weights,
+                    Refit refit, const Eigen::MatrixXd& functions, double size) {
+  if (!(size > 0.0) || !refit.usable) return refit;
+  const auto columns = law_error_columns(candidate, data, weights, refit.theta, functions, size);
   if (!columns) return {};
+  refit.law_error = size;
   refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
   refit.discrepancy->whiten(refit.residuals);
   refit.jacobian.resize(data.points.size() * refit.theta.size());
@@ -84,16 +102,48 @@ Refit under_law_errors(const Candidate& candidate, const Observations& data, con
   return refit;
 }
 
-Refit with_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
-                      Refit refit, const LawErrors& laws) {
-  if (laws.none()) return refit;
-  for (int round = 0; round < rounds && refit.usable; ++round) {
-    const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
-    if (!columns) return {};
-    refit = refit_candidate(candidate, data, weights, refit.theta, 0,
-                            std::make_shared<const Discrepancy>(*columns));
+/// @param refit_at (start, size) -> the refit under errors of that size
+template <class RefitAt>
+RefitOverLaws averaged(const Candidate& candidate, const Observations& data, const Refit& refit,
+                       const LawErrors& laws, const RefitAt& refit_at) {
+  constexpr double hopeless = 20.0;  // larger sizes only get worse from here
+  RefitOverLaws found;
+  double best = INFINITY, sum = 0.0;
+  Refit last = refit;
+  for (const LawErrorSize& one : laws.sizes) {
+    Refit here = refit_at(last, one.size);
+    if (!here.usable) continue;
+    const double criterion = corrected_criterion(data, here, candidate.free_count);
+    const double own = criterion - 2.0 * std::log(one.prior);
+    if (!found.refit.usable) found.first_chi2 = here.chi2;
+    if (own < best) {
+      sum = sum * std::exp(0.5 * (own - best)) + 1.0;
+      best = own;
+      found.refit = here;
+    } else {
+      sum += std::exp(-0.5 * (own - best));
+    }
+    if (own > best + hopeless) break;
+    last = std::move(here);
   }
-  return refit;
+  if (found.refit.usable) found.criterion = best - 2.0 * std::log(sum);
+  return found;
+}
+
+}  // namespace
+
+RefitOverLaws refit_over_laws(const Candidate& candidate, const Observations& data,
+                              const Weights& weights, const Refit& refit, const LawErrors& laws) {
+  return averaged(candidate, data, refit, laws, [&](const Refit& start, double size) {
+    return refit_with_law_error(candidate, data, weights, start, laws.functions, size);
+  });
+}
+
+RefitOverLaws screen_over_laws(const Candidate& candidate, const Observations& data,
+                               const Weights& weights, const Refit& refit, const LawErrors& laws) {
+  return averaged(candidate, data, refit, laws, [&](const Refit&, double size) {
+    return screened_with(candidate, data, weights, refit, laws.functions, size);
+  });
 }
 
 }  // namespace recoil

@@ -286,7 +286,7 @@ struct FitFile {
 
   /// How wrong the laws are, if the fit was averaged over their error.
   struct LawErrorFound { RECOIL_RESULT(
-      (bool, seen, "whether the points show an error: exact laws have a probability of at most 5 %"),
+      (bool, seen, "whether the points show an error: it makes them at least 20 times as probable"),
       (double, probability_of_exact_laws, "posterior probability of exact laws", "1"),
       (double, median, "median of the error if the laws are not exact, relative to the loss", "1"),
       (double, lower, "lower end of its interval", "1"),

@@ -263,7 +263,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     return {answer, warnings_section(a, warnings), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted, diagnosis),
+  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted),
                                  capture_words(a), loss_words(a), odd_point_words(a)};
   std::erase(leads, Sentence());
   const RestitutionSummary summary = summarise_restitution(a.datasets);

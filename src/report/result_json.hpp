@@ -46,6 +46,9 @@ void set_restitution(File& file, const std::vector<Dataset>& datasets) {
   file.series_differ = std::move(entries.series);
 }
 
+/// The verdict on the model, as fit.json and diagnosis.json state it.
+FitFile::ModelVerdictFound model_verdict_of(const FitResult& fitted);
+
 /// The content of fit.json. @pre analysis.fitted.usable
 std::string fit_json(const Analysis& analysis);
 

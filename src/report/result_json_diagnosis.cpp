@@ -155,7 +155,8 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   set_restitution(out, d.datasets);
   out.verdict = d.verdict();
-  out.headline = headline(d);
+  out.headline = plain_text(headline(d));
+  if (d.fitted) out.model_verdict = model_verdict_of(*d.fitted);
   out.text = answer_words(d);
   out.misfit = misfit_of(d);
   for (const OutlyingPoint& point : d.outlying) {

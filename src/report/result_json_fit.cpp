@@ -320,6 +320,8 @@ FitFile::Goodness goodness_of(const FitResult& f) {
           .noise_text = noise_words(f)};
 }
 
+}  // namespace
+
 FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
   const ModelJudgement judged = judge_model(f);
   FitFile::ModelVerdictFound out{judged.verdict, plain_text(verdict_sentence(f)), {}};
@@ -330,6 +332,8 @@ FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
   }
   return out;
 }
+
+namespace {
 
 FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;

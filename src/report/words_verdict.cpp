@@ -6,7 +6,6 @@
 
 #include "data/text.hpp"
 #include "report/format.hpp"
-#include "report/words_diagnosis.hpp"
 #include "report/words_fit.hpp"
 
 namespace recoil {
@@ -37,7 +36,15 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
     return say("The fit cannot be tested: its noise is not known ({}).", unknown_noise_reason(f));
   }
   if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
-  if (f.data.noise.sd_stated) return "The fit cannot be tested: chi-square is not known.";
+  if (f.data.noise.sd_stated && tests_the_curve(f)) {
+    return "The fit cannot be tested: chi-square is not known.";
+  }
+  if (f.data.noise.sd_stated) {
+    return say(
+        "The points cannot test the model: there are no more pairs of velocity and size than free "
+        "parameters. They scatter no more than stated ({}).",
+        p_words(*judged.p_value));
+  }
   if (judged.laws) {
     return say(
         "The points do not contradict the model; as they state no standard deviations, only a "
@@ -62,21 +69,6 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
              number(f.chi2, 4), f.dof, p);
 }
 
-/// The verdict of a diagnosis on a fit that took the laws as exact; empty if it has none of its
-/// own.
-Sentence verdict_of_diagnosis(const FitResult& fitted, const Diagnosis& diagnosis) {
-  const bool rejected = fitted.noise_verdict == NoiseVerdict::exceeded;
-  if (!diagnosis.answer_if<Adequate>()) return rejected ? "" : "The model does not fit.";
-  if (rejected && diagnosis.spec.law_error > 0.0) {
-    return say(
-        "The model fits if its laws are allowed an error of {}. With exact laws it does not fit: "
-        "the residuals are {} times the stated noise, and all intervals are widened by this "
-        "factor.",
-        percent(diagnosis.spec.law_error), number(fitted.noise_scale, 3));
-  }
-  return tests_the_curve(diagnosis) ? "The model fits." : "These points cannot test the model.";
-}
-
 }  // namespace
 
 Sentence law_error_words(const ModelJudgement& judged) {
@@ -88,12 +80,8 @@ Sentence law_error_words(const ModelJudgement& judged) {
              100.0 * judged.laws->upper);
 }
 
-Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
+Sentence verdict_sentence(const FitResult& fitted) {
   const ModelJudgement judged = judge_model(fitted);
-  if (diagnosis != nullptr && !judged.laws && fitted.data.noise.sd_stated) {
-    const Sentence own = verdict_of_diagnosis(fitted, *diagnosis);
-    if (!own.empty()) return own;
-  }
   const std::string p = judged.p_value ? p_words(*judged.p_value) : "";
   Sentence text;
   switch (judged.verdict) {
