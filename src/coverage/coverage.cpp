@@ -225,6 +225,7 @@ int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replic
   double seconds = fitted.data.weights_depend_on_fit() ? 2.5e-3 : 5e-4;
   if (fitted.weights.noise.event_spread > 0.0) seconds = 5e-3;
   if (mixtures || fitted.model.adhesion != AdhesionLaw::ring) seconds *= 10.0;
+  if (!fitted.laws.empty()) seconds *= 20.0;
   const double cost = usual * seconds * static_cast<double>(fitted.data.points.size());
   return cost < most_seconds ? usual : 0;
 }

@@ -51,6 +51,7 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
 /// The three rows of a shipped fit with f0 as `f0` says.
 std::vector<ComparisonRow> rows_of_molybdenum(bool free, std::optional<double> f0) {
   FitInputs inputs = load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml");
+  inputs.spec.uncertainty.materials = Materials::propagated;
   for (ParameterSpec& parameter : inputs.spec.parameters) {
     if (!parameter.parameter->is_adhesion()) continue;
     parameter.free = free;
