@@ -273,6 +273,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   if (data.noise.sd_stated) {
     data.noise.sd_missing = stated > 0 ? missing : 0;
     if (!spec.student) number_bounces(datasets, data);
+  find_batches(data.points);
     complete_sd(data.points);
     data.noise.sd_rounded = add_rounding(data.noise.rounding_sd, data.points);
   } else {

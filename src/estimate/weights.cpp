@@ -159,7 +159,8 @@ class WeightUpdate {
       const Local at = local(m, error_step(relative));
       const double effect = source.effect(point, at, weights_.noise);
       weights_.effects[k][i] = effect;
-      if (source.shared != SharedBy::none) continue;
+      // Without e there is no residual that an error could share.
+      if (source.shared != SharedBy::none && !point.censored) continue;
       variance += effect * effect;
       own.input_bias += 0.5 * at.bend * relative * relative;
     }

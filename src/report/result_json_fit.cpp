@@ -353,7 +353,8 @@ FitFile::Noise noise_of(const FitResult& f) {
   out.margin = {noise.candidates.size() > 1 ? std::optional(choice_margin(noise)) : std::nullopt,
                 "nothing was chosen"};
   out.points_with_velocity_errors = count_with(&InputErrors::velocity_sd);
-  out.points_with_diameter_errors = count_with(&InputErrors::diameter_sd);
+  out.points_with_diameter_errors =
+      count_with(&InputErrors::diameter_sd) + count_with(&InputErrors::batch_diameter_sd);
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
   out.setting_sd = {only_if(data.share(SharedBy::setting), noise.setting_sd),

@@ -107,6 +107,26 @@ std::string setting_words(const FitResult& fitted) {
                                 source);
 }
 
+/// The rows whose diameter has one error; as in "the stated error of the diameter is shared by the
+/// 20 points of 4.9 um".
+std::string batch_words(const FitResult& fitted) {
+  std::map<std::size_t, std::pair<double, int>> sizes;  // diameter, points
+  for (const Observation& point : fitted.data.points) {
+    if (!(point.batch_diameter_sd > 0.0)) continue;
+    auto& [diameter, points] = sizes[point.size];
+    diameter = point.diameter;
+    ++points;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [size, of] : sizes) {
+    texts.push_back(
+        fmt::format("the {} of {:.3g} um", counted(of.second, "point"), 1e6 * of.first));
+  }
+  if (texts.empty()) return "";
+  return fmt::format("; the stated error of the diameter is shared by {}",
+                     fmt::join(texts, " and by "));
+}
+
 // ---- warnings ----------------------------------------------------------------------------------
 
 /// Appends the sentences that the list does not contain yet.
@@ -353,7 +373,7 @@ std::string noise_words(const FitResult& fitted) {
         stated.rounding_sd * std::sqrt(12.0), stated.rounding_sd,
         counted(stated.sd_rounded, "point"));
   }
-  text += setting_words(fitted);
+  text += batch_words(fitted) + setting_words(fitted);
   if (const auto& student = fitted.data.noise.student) {
     text += fmt::format("; Student's t residuals with {:g} degrees of freedom", student->dof);
   }
