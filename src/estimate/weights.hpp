@@ -24,7 +24,7 @@ struct DeviancePeak {
 /// The weights of one point.
 struct PointWeights {
   double sd = 0.0;  ///< standard deviation of the mean e: stated, or estimated [1]
-  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated [1].
+  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated or pooled [1].
   double proximity = 0.0;
   double input_sd =
       0.0;  ///< sd of e^2 from the errors that no other point shares; without e, all [1]

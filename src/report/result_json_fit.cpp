@@ -341,7 +341,7 @@ FitFile::Noise noise_of(const FitResult& f) {
   FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
-  out.scale = {only_if(!data.noise.sd_stated && noise.known, noise.scale),
+  out.scale = {only_if(noise.known && noise.variance != VarianceFunction::stated, noise.scale),
                noise.known ? "the standard deviations are stated" : noise_words(f)};
   if (noise.known) out.scale_text = scale_words(noise.variance, noise.scale);
   for (const Noise::Candidate& candidate : noise.candidates) {
