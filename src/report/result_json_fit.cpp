@@ -8,6 +8,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/likelihood.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
@@ -715,13 +716,15 @@ std::string fit_json(const Analysis& a) {
     entry.dataset = a.datasets[check.dataset].id;
   }
   out.bootstrap = bootstrap_of(a);
-  if (!a.own_design.empty()) {
-    FitFile::OwnDesign own;
-    for (const OwnCoverage& row : a.own_design) {
-      own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
-    }
-    out.own_design = std::move(own);
+  FitFile::OwnDesign own;
+  for (const OwnCoverage& row : a.own_design) {
+    own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
   }
+  out.own_design = {own.coverage.empty() ? std::nullopt : std::optional(std::move(own)),
+                    noise_doubts(f).empty()
+                        ? "it was not counted"
+                        : "the noise is in doubt (see warnings), and simulated data do not have "
+                          "this doubt"};
   out.posterior = posterior_of(a);
   set_two_point(out, a);
   for (const StartSummary& start : f.starts) {
