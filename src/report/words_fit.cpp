@@ -54,12 +54,12 @@ std::string verdict_words(const FitResult& fitted) {
     case NoiseVerdict::estimated:
       return variance_words(fitted);
     case NoiseVerdict::explained:
-      return "the stated standard deviations explain the scatter";
+      return fmt::format("{} explains the scatter", noise_name(fitted));
     case NoiseVerdict::doubtful:
-      return fmt::format("the stated standard deviations barely explain the scatter ({})",
+      return fmt::format("{} barely explains the scatter ({})", noise_name(fitted),
                          p_words(fitted.p_value));
     case NoiseVerdict::exceeded:
-      return fmt::format("the stated standard deviations do not explain the scatter ({})",
+      return fmt::format("{} does not explain the scatter ({})", noise_name(fitted),
                          p_words(fitted.p_value));
   }
   return "";
@@ -320,6 +320,12 @@ Sentence loss_words(const Analysis& a) {
   return Sentence(text + ".");
 }
 
+std::string noise_name(const FitResult& fitted) {
+  const auto counts = [](const Observation& point) { return point.censored; };
+  return std::ranges::all_of(fitted.data.points, counts) ? "the noise of the counts"
+                                                         : "the stated noise";
+}
+
 std::string noise_words(const FitResult& fitted) {
   if (!fitted.usable) return "";
   std::string text = verdict_words(fitted) + input_words(fitted);
@@ -388,9 +394,9 @@ Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
 
 Sentence noise_warning(const FitResult& fitted) {
   return fmt::format(
-      "the residuals are {:.3g} times larger than the stated noise ({}): errors and intervals are "
-      "widened by this factor, but no widening can correct for a wrong model",
-      fitted.noise_scale, p_words(fitted.p_value));
+      "the residuals are {:.3g} times larger than {} ({}): errors and intervals are widened by "
+      "this factor, but no widening can correct for a wrong model",
+      fitted.noise_scale, noise_name(fitted), p_words(fitted.p_value));
 }
 
 std::vector<Sentence> fit_warnings(const FitResult& fitted) {
