@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "estimate/law_average.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/fit_alternatives.hpp"
@@ -215,7 +216,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
 }
 
 int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates) {
-  if (!fitted.weights.noise.known) return 0;
+  if (!fitted.weights.noise.known || !noise_doubts(fitted).empty()) return 0;
   if (spec.uncertainty.own_design) return *spec.uncertainty.own_design;
   if (replicates == 0 || fitted.noise_verdict == NoiseVerdict::exceeded) return 0;
   constexpr int usual = 200;

@@ -9,6 +9,7 @@
 #include "core/numerics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/pooled_deviations.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/setting_error.hpp"
@@ -93,6 +94,7 @@ class WeightUpdate {
       weights_.predicted = at;
       weights_.effects.assign(data_.sources.size(), std::vector<double>(at.size(), 0.0));
     }
+    if (inputs_) pool_noise(at);
     std::vector<Local> locals;
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (inputs_) set_errors(i, at[i], local);
@@ -140,15 +142,28 @@ class WeightUpdate {
     }
   }
 
+  void pool_noise(const std::vector<double>& at) {
+    if (!data_.noise.pools_sd) return;
+    Noise& noise = weights_.noise;
+    const auto pooled = pool_deviations(data_, weights_, at)
+                            .value_or(PooledNoise{VarianceFunction::stated, 0.0, 0});
+    noise.variance = pooled.variance;
+    noise.scale = pooled.scale;
+    noise.pooled_dof = pooled.dof;
+  }
+
   /// Sets the estimated sd and the effective variance of point i with predicted e^2 `m`; `local`
   /// reads the next derivatives.
   template <class NextLocal>
   void set_errors(std::size_t i, double m, const NextLocal& local) {
     const Observation& point = data_.points[i];
     PointWeights& own = weights_.points[i];
-    if (!data_.noise.sd_stated) {
+    const bool pooled = weights_.noise.pooled_dof > 0 && pools_deviation(point);
+    if (!data_.noise.sd_stated || pooled) {
       own.sd = std::max(data_.noise.rounding_sd,
                         weights_.noise.estimated_sd(m, own.proximity, point.averaged()));
+    } else {
+      own.sd = point.sd;
     }
     double variance = 0.0;
     own.input_bias = 0.0;
@@ -159,7 +174,8 @@ class WeightUpdate {
       const Local at = local(m, error_step(relative));
       const double effect = source.effect(point, at, weights_.noise);
       weights_.effects[k][i] = effect;
-      if (source.shared != SharedBy::none) continue;
+      // Without e there is no residual that an error could share.
+      if (source.shared != SharedBy::none && !point.censored) continue;
       variance += effect * effect;
       own.input_bias += 0.5 * at.bend * relative * relative;
     }
@@ -368,7 +384,7 @@ Weights first_weights(const Observations& data, Noise noise) {
 std::optional<Weights> weights_at(const ImpactModel& model, const Observations& data,
                                   Weights before, std::span<const double> theta,
                                   PointPredictor& points) {
-  if (!data.noise.sd_stated) set_proximities(model, data, theta, before);
+  if (!data.noise.sd_stated || data.noise.pools_sd) set_proximities(model, data, theta, before);
   WeightUpdate update(data, std::move(before), true);
   const auto values = evaluate_model(model, theta, points, update);
   if (!values) return std::nullopt;

@@ -531,8 +531,8 @@ struct FitFile {
     (std::vector<ValidityEntry>, validity, "limits of validity of the model, at the worst point of "
      "each dataset"),
     (Bootstrap, bootstrap, "the bootstrap"),
-    (OrAbsent<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
-     "with these points, noise and captures; absent if it was not counted"),
+    (OrReason<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
+     "with these points, noise and captures"),
     (OrNull<Posterior>, posterior, "null without `posterior = true`"),
     (std::vector<CalibrationRow>, comparison, "two points against all points: three rows per dataset"),
     (OrReason<TwoPoint>, two_point, "the two-point calibration of the first dataset"),

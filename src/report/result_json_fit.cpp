@@ -8,6 +8,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/likelihood.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
@@ -345,7 +346,7 @@ FitFile::Noise noise_of(const FitResult& f) {
   FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
-  out.scale = {only_if(!data.noise.sd_stated && noise.known, noise.scale),
+  out.scale = {only_if(noise.known && noise.variance != VarianceFunction::stated, noise.scale),
                noise.known ? "the standard deviations are stated" : noise_words(f)};
   if (noise.known) out.scale_text = scale_words(noise.variance, noise.scale);
   for (const Noise::Candidate& candidate : noise.candidates) {
@@ -357,7 +358,8 @@ FitFile::Noise noise_of(const FitResult& f) {
   out.margin = {noise.candidates.size() > 1 ? std::optional(choice_margin(noise)) : std::nullopt,
                 "nothing was chosen"};
   out.points_with_velocity_errors = count_with(&InputErrors::velocity_sd);
-  out.points_with_diameter_errors = count_with(&InputErrors::diameter_sd);
+  out.points_with_diameter_errors =
+      count_with(&InputErrors::diameter_sd) + count_with(&InputErrors::batch_diameter_sd);
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
   out.setting_sd = {only_if(data.share(SharedBy::setting), noise.setting_sd),
@@ -718,13 +720,15 @@ std::string fit_json(const Analysis& a) {
     entry.dataset = a.datasets[check.dataset].id;
   }
   out.bootstrap = bootstrap_of(a);
-  if (!a.own_design.empty()) {
-    FitFile::OwnDesign own;
-    for (const OwnCoverage& row : a.own_design) {
-      own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
-    }
-    out.own_design = std::move(own);
+  FitFile::OwnDesign own;
+  for (const OwnCoverage& row : a.own_design) {
+    own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
   }
+  out.own_design = {own.coverage.empty() ? std::nullopt : std::optional(std::move(own)),
+                    noise_doubts(f).empty()
+                        ? "it was not counted"
+                        : "the noise is in doubt (see warnings), and simulated data do not have "
+                          "this doubt"};
   out.posterior = posterior_of(a);
   set_two_point(out, a);
   for (const StartSummary& start : f.starts) {

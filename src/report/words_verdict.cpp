@@ -61,9 +61,9 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
       judged.laws && judged.laws->seen() ? ", even if its laws are wrong," : Sentence();
   if (f.noise_verdict == NoiseVerdict::exceeded) {
     return say(
-        "The model does not fit{}: the residuals are {} times the stated noise ({}), and all "
-        "intervals are widened by this factor.",
-        laws, number(f.noise_scale, 3), p);
+        "The model does not fit{}: the residuals are {} times {} ({}), and all intervals are "
+        "widened by this factor.",
+        laws, number(f.noise_scale, 3), noise_name(f), p);
   }
   return say("The model does not fit{}: chi-square is {} on {} degrees of freedom ({}).", laws,
              number(f.chi2, 4), f.dof, p);

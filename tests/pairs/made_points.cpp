@@ -179,7 +179,12 @@ class Experiment {
     double velocity = point.velocity - offset;
     double diameter = point.diameter;
     if (is("velocity_sd", "yes")) velocity *= 1.0 + relative_input_sd * normal();
-    if (is("diameter_sd", "yes")) diameter *= 1.0 + relative_input_sd * normal();
+    if (is("diameter_sd", "yes")) {
+      const bool batch = !is("series_diameter_sd", "yes");
+      diameter *=
+          1.0 + relative_input_sd *
+                    (batch ? shared("size " + std::to_string(1e9 * point.diameter)) : normal());
+    }
     double ratio = 1.0;
     if (is("setting_velocity_sd", "yes")) {
       ratio += relative_input_sd * shared("velocity of " + point.setting);
@@ -403,12 +408,14 @@ const std::vector<Pair>& refused_pairs() {
                                // errors that points share are normal
                                pair_of({"residuals", "student"}, {"setting", "stated"}),
                                pair_of({"residuals", "student"}, {"setting_velocity_sd", "yes"}),
+                               pair_of({"residuals", "student"}, {"diameter_sd", "yes"}),
                                pair_of({"residuals", "student"}, {"series_diameter_sd", "yes"})};
     // single points cannot be exchanged if they share errors
     for (const char* scheme : {"residual", "wild", "case"}) {
       pairs.push_back(pair_of({"scheme", scheme}, {"setting_velocity_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"setting", "stated"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"setting", "estimated"}));
+      pairs.push_back(pair_of({"scheme", scheme}, {"diameter_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"series_diameter_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"launch", "yes"}));
     }
