@@ -17,6 +17,7 @@
 #include "diagnosis/trial.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "estimate/law_average.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/mechanism.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -491,6 +492,9 @@ Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
+  if (const FitResult& exact = with_laws_exact(fitted); &exact != &fitted) {
+    return diagnose(spec, datasets, exact, options);
+  }
   if (!fitted.model.constants.empty() && !fitted.model.adjusts_constants()) {
     const FitResult adjusted =
         usable(spec, fit(with_adjusted_materials(fitted.model), gather(datasets, spec.noise)));

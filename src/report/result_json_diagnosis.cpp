@@ -153,7 +153,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   for (const Dataset& dataset : d.datasets) {
     out.datasets.push_back({dataset.id, dataset.provenance, dataset.points.size(), dataset.sha256});
   }
-  set_restitution(out, d.datasets);
+  set_restitution(out, d.datasets, d.base.model);
   out.verdict = d.verdict();
   out.headline = headline(d);
   out.text = answer_words(d);

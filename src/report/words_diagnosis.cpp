@@ -127,8 +127,11 @@ std::string headline(const Diagnosis& d) {
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
       return rival_errors(d).empty()
                  ? "The model has a misfit that no cause in the catalogue explains"
-                 : "Either the errors are larger than stated, or the model has a misfit that no "
-                   "cause in the catalogue explains";
+                 : fmt::format(
+                       "Either {}, or the model has a misfit that no cause in the catalogue "
+                       "explains",
+                       d.base.data.noise.sd_stated ? "the errors are larger than stated"
+                                                   : "the points have errors that are not stated");
   }
   return "";
 }

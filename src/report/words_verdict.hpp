@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/sentence.hpp"
 #include "estimate/model_verdict.hpp"
@@ -10,6 +12,9 @@ namespace recoil {
 /// names.
 /// @param diagnosis of the same points; null without one
 Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis = nullptr);
+
+/// "2.1 [1.5, 3.8] %" or, if no error is seen, "below 0.8 %".
+std::string law_error_range(const LawErrorEstimate& laws);
 
 /// How wrong the laws are: "The laws are wrong by 2.1 [1.5, 3.8] % of the loss."; empty if the fit
 /// was not averaged over their error.

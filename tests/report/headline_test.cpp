@@ -73,6 +73,9 @@ TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   d.unstated.push_back({UnstatedSource::velocity_errors, 0.03, -40.0, 0.001});
   EXPECT_EQ(headline(d), "The model has a misfit that no cause in the catalogue explains");
   d.unstated.push_back({UnstatedSource::larger_deviations, 1.4, -20.0, 0.4});
+  d.base.data.noise.sd_stated = false;
+  EXPECT_THAT(headline(d), HasSubstr("Either the points have errors that are not stated, or"));
+  d.base.data.noise.sd_stated = true;
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }
 
