@@ -21,10 +21,12 @@ constexpr double near_reach = 0.7;     // largest step in ln omega: a factor of 
 constexpr double least_spread = 2e-3;
 constexpr double largest_spread = 0.6;
 // If e^2 exceeds its scatter by this factor, all spheres survive: sqrt(e^2) is their mean to a
-// relative 1 / (8 * 30^2) = 1.4e-4. A point whose scatter counts keeps it up to a larger factor:
-// otherwise a point at the limit would change its weight in every round, without end.
+// relative 1 / (8 * 30^2) = 1.4e-4. A point whose scatter counts keeps it up to a slightly larger
+// factor: otherwise a point at the limit would change its weight in every round, without end. It is
+// larger by more than these rounds change the spread, and no more, as the answer must not depend on
+// the start.
 constexpr double far_from_capture = 30.0;
-constexpr double far_again = 300.0;
+constexpr double far_again = 1.1 * far_from_capture;
 // Initial sd of e^2 from impact to impact if only counts are known: d e^2 / d ln V is about 2 at
 // capture, and capture velocities typically scatter by a tenth.
 constexpr double first_scatter = 0.2;
