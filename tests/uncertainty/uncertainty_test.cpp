@@ -98,10 +98,10 @@ TEST(TwoPoints, AreComparedWithAFitOfTheSameF0) {
 }
 
 TEST(TwoPoints, TheHeadlineIsARowOfItsOwnIfTheOthersHaveExactLaws) {
-  Analysis a = analyse_fit(load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml"));
+  const Analysis a = analyse_fit(load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml"));
   ASSERT_FALSE(a.fitted.laws.empty());
-  assess(a, small(0));
-  const std::vector<ComparisonRow>& rows = a.uncertainty.two_point.front().rows;
+  const UncertaintyResult assessed = assess_uncertainty(a.fitted, a.datasets, small(0));
+  const std::vector<ComparisonRow>& rows = assessed.two_point.front().rows;
   ASSERT_EQ(rows.size(), 4U);
   for (const ComparisonRow& row : rows) {
     EXPECT_EQ(row.headline, row.row == CalibrationKind::fit);
