@@ -9,7 +9,6 @@
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/sentence.hpp"
-#include "estimate/restitution_summary.hpp"
 #include "export/files.hpp"
 #include "export/table.hpp"
 #include "json/fit_file.hpp"
@@ -58,8 +57,8 @@ Fitted fit_points(FitInputs inputs, const GivenOptions& given, bool bands) {
   out.source.rmse = analysis.fitted.rmse;
   if (analysis.fitted.noise_verdict == NoiseVerdict::exceeded) {
     out.source.p_value = analysis.fitted.p_value;
-    out.source.mean_restitution = plain_text(join(
-        restitution_sentences(summarise_restitution(analysis.datasets), analysis.datasets), " "));
+    out.source.mean_restitution =
+        plain_text(join(restitution_sentences(analysis.datasets, analysis.fitted.model), " "));
   }
   out.datasets = std::move(analysis.datasets);
   return out;

@@ -108,7 +108,7 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   add_resampled_intervals(fitted, replicates, own.level, own.threads, sets);
   add_resampled_captures(fitted, replicates, own.level, captures);
   const Identifiability identifiability =
-      judge_identifiability(fitted, sets, captures, alternatives);
+      judge_identifiability(fitted, sets, captures, own.level, alternatives);
   PosteriorResult posterior;
   if (own.posterior)
     posterior = sample_posterior(noise_alternatives(fitted), captures, sampling_options(own));
@@ -127,10 +127,11 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
     intervals.push_back(posterior_of(posterior.parameters, j));
     const ParameterIdentifiability& verdict = identifiability.parameter[j];
-    const double scale = std::max(std::abs(at.theta[j]), verdict.loss_scale);
-    trial.parameters.push_back(trial_row(verdict.identifiable,
-                                         std::abs(fitted.theta[j] - at.theta[j]) / scale,
-                                         at.theta[j], intervals));
+    const double off = std::abs(fitted.theta[j] - at.theta[j]);
+    // Over the truth; a truth of zero is missed by all of the estimate.
+    const double scale = std::abs(at.theta[j] != 0.0 ? at.theta[j] : fitted.theta[j]);
+    trial.parameters.push_back(
+        trial_row(verdict.identifiable, off > 0.0 ? off / scale : 0.0, at.theta[j], intervals));
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
     const CaptureEstimate& capture = captures[k];

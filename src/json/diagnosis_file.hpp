@@ -195,6 +195,7 @@ struct DiagnosisFile {
     (std::string, fit, "name of the fit file without ending"),
     (std::vector<Data>, datasets, "each dataset"),
     (std::vector<RestitutionMeanEntry>, restitution_summary, about_restitution_summary),
+    (std::vector<RestitutionRangeEntry>, restitution_range, about_restitution_range),
     (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
     (SeriesDifferEntry, series_differ, about_series_differ),
     (OrNull<FitFile::ModelVerdictFound>, model_verdict, "whether the model describes the points: the same as "

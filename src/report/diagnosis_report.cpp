@@ -222,10 +222,9 @@ Table next_experiment_table(const Diagnosis& d) {
 
 Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
-  const RestitutionSummary summary = summarise_restitution(d.datasets);
   answer.blocks = {Paragraph{headline(d), true},
                    Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
-                   Paragraph{join(restitution_sentences(summary, d.datasets), " ")}};
+                   Paragraph{join(restitution_sentences(d.datasets, d.base.model), " ")}};
   append(answer.blocks, data_banners(d.datasets));
   return answer;
 }

@@ -326,11 +326,7 @@ FitFile::Goodness goodness_of(const FitResult& f) {
 FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
   const ModelJudgement judged = judge_model(f);
   FitFile::ModelVerdictFound out{judged.verdict, plain_text(verdict_sentence(f)), {}};
-  if (judged.laws) {
-    const LawErrorEstimate& laws = *judged.laws;
-    out.law_error =
-        FitFile::LawErrorFound{laws.seen(), laws.exact_weight, laws.median, laws.lower, laws.upper};
-  }
+  out.law_error = law_error_found(judged.laws);
   return out;
 }
 
@@ -542,6 +538,7 @@ FitFile::CalibrationRow compared_entry(const Analysis& a, const TwoPointComparis
   FitFile::CalibrationRow out;
   out.dataset = a.datasets[d].id;
   out.id = row.row;
+  out.headline = row.headline;
   const std::optional<double> f0 =
       row.theta.empty() ? std::nullopt : std::optional(adhesion_force_under(model, row.theta, d));
   out.f0 = {f0, row.failure};
@@ -632,6 +629,11 @@ std::optional<Ends> ends_of(const Interval& interval) {
   return Ends{*interval.lower, *interval.upper};
 }
 
+OrNull<LawErrorFound> law_error_found(const std::optional<LawErrorEstimate>& laws) {
+  if (!laws) return std::nullopt;
+  return LawErrorFound{laws->seen(), laws->exact_weight, laws->median, laws->lower, laws->upper};
+}
+
 DatasetEntry dataset_entry(const Dataset& dataset) {
   return {.id = dataset.id,
           .title = dataset.title,
@@ -655,8 +657,9 @@ ValidityEntry validity_entry(const Validity& check) {
   return out;
 }
 
-RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
-  const RestitutionSummary summary = summarise_restitution(datasets);
+RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets,
+                                       const ImpactModel& model) {
+  const RestitutionSummary summary = summarise_restitution(datasets, adheres_anywhere(model));
   const auto series_of = [&](const RestitutionMean& mean) {
     return datasets[mean.dataset].series[mean.series];
   };
@@ -672,8 +675,14 @@ RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
     entry.interval = {mean.interval, mean.why};
     entry.points = mean.points;
   }
+  for (const RestitutionRange& range : summary.ranges) {
+    out.ranges.push_back({datasets[range.dataset].id,
+                          in_um(range.diameter),
+                          {range.slowest.velocity, range.slowest.value},
+                          {range.fastest.velocity, range.fastest.value}});
+  }
   const TestedEffect& slope = summary.velocity;
-  out.velocity = {{slope.value, slope.why}, slope.interval, slope.p_value};
+  out.velocity = {{slope.value, slope.why}, slope.interval, slope.p_value, summary.without_error};
   const TestedEffect& differ = summary.series;
   out.series = {{differ.p_value, differ.why}, {}, differ.value, differ.interval};
   if (differ.value) {
@@ -691,7 +700,7 @@ std::string fit_json(const Analysis& a) {
   out.provenance_sentence = all_provenance_sentences(a.datasets);
   out.dataset = joint_entry(a.datasets);
   for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
-  set_restitution(out, a.datasets);
+  set_restitution(out, a.datasets, f.model);
   for (const LossFit& law : a.losses) out.loss_laws.push_back({law.id, law.delta_aicc});
   out.options = options_of(a);
   out.model = model_of(a);

@@ -11,11 +11,6 @@
 namespace recoil {
 namespace {
 
-std::string law_error_range(const LawErrorEstimate& laws) {
-  return fmt::format("{:.2g} [{:.2g}, {:.2g}] % of the loss", 100.0 * laws.median,
-                     100.0 * laws.lower, 100.0 * laws.upper);
-}
-
 /// "f0 is 6.4 N/m, and the materials give 9.5 N/m", or by how much a constant moved.
 Sentence moved_constant_words(const FitResult& fitted, std::size_t constant) {
   const ImpactModel& model = fitted.model;
@@ -71,13 +66,18 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
 
 }  // namespace
 
+std::string law_error_range(const LawErrorEstimate& laws) {
+  return laws.seen() ? fmt::format("{:.2g} [{:.2g}, {:.2g}] %", 100.0 * laws.median,
+                                   100.0 * laws.lower, 100.0 * laws.upper)
+                     : fmt::format("below {:.2g} %", 100.0 * laws.upper);
+}
+
 Sentence law_error_words(const ModelJudgement& judged) {
   if (!judged.laws) return {};
   if (judged.laws->seen()) {
-    return say("The laws are wrong by {}.", law_error_range(*judged.laws));
+    return say("The laws are wrong by {} of the loss.", law_error_range(*judged.laws));
   }
-  return say("No error of the laws is seen: below {:.2g} % of the loss.",
-             100.0 * judged.laws->upper);
+  return say("No error of the laws is seen: {} of the loss.", law_error_range(*judged.laws));
 }
 
 Sentence verdict_sentence(const FitResult& fitted) {
@@ -95,7 +95,8 @@ Sentence verdict_sentence(const FitResult& fitted) {
                  moved_constant_words(fitted, *judged.moved));
       break;
     case ModelVerdict::fits_within_law_error:
-      text = say("The model fits if its laws are wrong by {}{}.", law_error_range(*judged.laws),
+      text = say("The model fits if its laws are wrong by {} of the loss{}.",
+                 law_error_range(*judged.laws),
                  p.empty() ? "" : "; with exact laws it does not (" + p + ")");
       break;
     case ModelVerdict::does_not_fit:
@@ -105,7 +106,8 @@ Sentence verdict_sentence(const FitResult& fitted) {
       text = untested_words(fitted, judged);
       break;
   }
-  if (judged.laws && !judged.laws->seen()) text += say(" {}", law_error_words(judged));
+  if (judged.laws && judged.verdict != ModelVerdict::fits_within_law_error)
+    text += say(" {}", law_error_words(judged));
   return text;
 }
 
