@@ -82,7 +82,8 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
       {"uncertainty", "materials", quoted("auto"),
        "\"auto\": the fit moves uncertain material constants within their stated errors, and every "
-       "result is averaged over how wrong the laws are; \"adjust\": the same with exact laws; true: "
+       "result is averaged over how wrong the laws are; \"adjust\": the same with exact laws; "
+       "true: "
        "the constants stay where they are stated, and their errors widen every interval; false: "
        "the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),

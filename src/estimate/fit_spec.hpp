@@ -113,8 +113,8 @@ struct FitSpec {
   UncertaintySpec uncertainty;
   /// `[diagnosis]`: relative, smooth error of the law of a mechanism [1]; empty: averaged over.
   std::optional<double> law_error;
-  std::string text;        ///< the file's text
-  std::string sha256;      ///< its SHA-256
+  std::string text;    ///< the file's text
+  std::string sha256;  ///< its SHA-256
 
   /// The entry of `parameters`, or `default_of` if there is none.
   ParameterSpec statement_of(const Parameter& parameter) const;
