@@ -166,7 +166,7 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
     result.posterior =
         sample_posterior(noise_alternatives(fitted), result.capture, sampling_options(options));
   }
-  result.odd_point = odd_point(fitted);
+  result.odd_point = odd_point(with_laws_exact(fitted));
   result.budgets = parameter_budgets(fitted);
   result.capture_budgets = capture_budgets(fitted, result.capture);
   result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,

@@ -115,7 +115,10 @@ RefitOverLaws averaged(const Candidate& candidate, const Observations& data, con
     if (!here.usable) continue;
     const double criterion = corrected_criterion(data, here, candidate.free_count);
     const double own = criterion - 2.0 * std::log(one.prior);
-    if (!found.refit.usable) found.first_chi2 = here.chi2;
+    if (!found.refit.usable) {
+      found.first_chi2 = here.chi2;
+      found.refit = here;
+    }
     if (own < best) {
       sum = sum * std::exp(0.5 * (own - best)) + 1.0;
       best = own;
@@ -126,7 +129,8 @@ RefitOverLaws averaged(const Candidate& candidate, const Observations& data, con
     if (own > best + hopeless) break;
     last = std::move(here);
   }
-  if (found.refit.usable) found.criterion = best - 2.0 * std::log(sum);
+  // Too few points for the criterion leave it infinite.
+  if (std::isfinite(best)) found.criterion = best - 2.0 * std::log(sum);
   return found;
 }
 

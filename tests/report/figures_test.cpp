@@ -148,7 +148,7 @@ TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
 }
 
 /// The sample with an error of the laws of 3 % that bends over 1.6 in ln V, the coefficients z of
-/// which have the variance `variance`; laws are exact with a probability of 1 %.
+/// which have the variance `variance`; laws are exact with a probability of 0.1 %.
 Analysis with_wrong_laws(double variance) {
   Analysis a = sample::four_diameters();
   FitResult& f = a.fitted;
@@ -164,7 +164,7 @@ Analysis with_wrong_laws(double variance) {
   f.constant_effects.clear();
   f.constants_moved.assign(slots - first, 0.0);
   f.quantile_dof = 0;
-  f.laws = {{{}, 0.01, {}}, {prior, 0.99, {}}};
+  f.laws = {{{}, 0.001, {}}, {prior, 0.999, {}}};
   return a;
 }
 
