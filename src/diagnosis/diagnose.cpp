@@ -144,6 +144,11 @@ bool may_be_a_cause(const CandidateResult& c) {
   return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
 }
 
+/// Is it a possible cause that fits better than the base model?
+bool may_act(const CandidateResult& c) {
+  return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
+}
+
 /// The best explanation among `candidates` (sorted, best first) and its rivals, which cannot be
 /// distinguished from it; empty without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
@@ -373,11 +378,8 @@ DiagnosisAnswer without_a_cause(const SearchBase& base, const Diagnosis& diagnos
   const auto impossible = std::ranges::find_if(candidates, only_resembles);
   const bool has_impossible = impossible != candidates.end();
   if (law_errors_suffice(base) && !(has_impossible && impossible->delta_aicc < -margin)) {
-    const auto possible = [](const CandidateResult& c) {
-      return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
-    };
     return Adequate{{},
-                    IfExact{diagnosis.structure.p_value, best_where(possible, candidates, margin)}};
+                    IfExact{diagnosis.structure.p_value, best_where(may_act, candidates, margin)}};
   }
   if (!has_impossible ||
       plausible_cause_fits_as_well(candidates, *impossible, base.options.chance)) {
@@ -411,7 +413,11 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   if (nothing_explains(found) && gains_more_than_chance(diagnosis)) {
     found = explanations_by_pairs(base, folds, margin_in_pairs, one_size, diagnosis);
   }
-  if (nothing_explains(found)) return without_a_cause(base, diagnosis, margin);
+  // An error of the laws is the simpler answer unless a cause is clearly better.
+  const bool clearly = !found.empty() && found.front()->delta_aicc < -margin;
+  if (nothing_explains(found) || (!clearly && law_errors_suffice(base))) {
+    return without_a_cause(base, diagnosis, margin);
+  }
   const CandidateResult& best = *found.front();
   if (errors_fit_better(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
   ExtendedModel extended = extended_by(best, base, base_intervals);
@@ -437,12 +443,19 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
-/// The structure that exact laws leave.
-IfExact if_exact(const SearchBase& base, const Diagnosis& diagnosis) {
-  if (!(base.first.law_error > 0.0)) return {diagnosis.structure.p_value, {}};
-  const Refit exact =
-      refit_candidate(base.candidate, base.fitted.data, base.fitted.weights, base.first.theta, 0);
-  return {exact.usable ? quick_p_value(base, exact) : diagnosis.structure.p_value, {}};
+/// The structure that exact laws leave and, if there is any, the causes that fit it best.
+std::optional<IfExact> if_exact(const SearchBase& allowed) {
+  if (!(allowed.first.law_error > 0.0)) return std::nullopt;
+  FitSpec spec = allowed.spec;
+  spec.law_error = 0.0;
+  const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, allowed.options);
+  if (!base.refit.usable) return std::nullopt;
+  IfExact found{quick_p_value(base, base.refit), {}};
+  if (found.p_value > base.options.level) return found;
+  std::vector<CandidateResult> candidates = try_singles(base);
+  judge(base, candidates, INFINITY, {});
+  found.listed = best_where(may_act, candidates, base.options.margin);
+  return found;
 }
 
 /// Steps 1 to 5 on all points of `base`.
@@ -458,13 +471,10 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
-    diagnosis.answer = Adequate{{}, if_exact(base, diagnosis)};
+    diagnosis.answer =
+        options.answer_alone ? Adequate{} : Adequate{materials_explain(diagnosis), if_exact(base)};
   } else {
     diagnosis.answer = search(base, simulated, base_intervals, diagnosis);
-  }
-  if (auto* adequate = std::get_if<Adequate>(&diagnosis.answer);
-      adequate != nullptr && !options.answer_alone) {
-    adequate->materials = materials_explain(diagnosis);
   }
   return diagnosis;
 }

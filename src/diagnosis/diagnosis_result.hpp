@@ -71,8 +71,8 @@ struct MaterialsExplain {
 /// The structure that an adequate model leaves if laws and losses have no error (`LawErrors`).
 struct IfExact {
   double p_value = 1.0;  ///< p-value of the structure
-  /// If only errors of the laws make the model adequate: the possible causes that fit better than
-  /// these errors, though not clearly, all within the margin of the best.
+  /// If the p-value is at most the level of the diagnosis: the possible causes that fit best, all
+  /// within the margin of the first.
   std::vector<std::string> listed;
 };
 

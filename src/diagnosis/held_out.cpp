@@ -131,24 +131,22 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     const Observations unseen = data.subset(folds[f].points);
     const Weights weights_seen = weights.subset(others);
     const Weights weights_unseen = weights.subset(folds[f].points);
-    Eigen::MatrixXd of_seen, of_unseen;
-    if (size > 0.0) {
-      of_seen = laws.functions(others, Eigen::all);
-      of_unseen = laws.functions(folds[f].points, Eigen::all);
-    }
+    const bool errors = laws.act(candidate, size);
+    const LawErrors of_seen = errors ? laws.of(others) : LawErrors();
+    const LawErrors of_unseen = errors ? laws.of(folds[f].points) : LawErrors();
     Refit start;
     start.usable = true;
     start.theta = all.theta;
-    const Refit refit = size > 0.0 ? refit_with_law_error(candidate, seen, weights_seen,
-                                                          std::move(start), of_seen, size)
-                                   : refit_candidate(candidate, seen, weights_seen, all.theta, 0);
+    const Refit refit = errors ? refit_with_law_error(candidate, seen, weights_seen,
+                                                      std::move(start), of_seen, size)
+                               : refit_candidate(candidate, seen, weights_seen, all.theta, 0);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen, weights_unseen);
     std::vector<double> residuals(problem.residual_count);
     if (!problem.evaluate(refit.theta, residuals, {})) return;
     residuals.resize(unseen.points.size());
     double log_determinant = 0.0;
-    if (size > 0.0) {
+    if (errors) {
       const auto U_seen =
           law_error_columns(candidate, seen, weights_seen, refit.theta, of_seen, size);
       const auto U_unseen =

@@ -29,16 +29,29 @@ std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<cons
 
 }  // namespace
 
+LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
+  LawErrors part{sizes, {}, mechanism};
+  if (functions.size() > 0) part.functions = functions(points, Eigen::all);
+  return part;
+}
+
 LawErrors allowed_law_errors(std::optional<double> stated, const Observations& data) {
   LawErrors laws{sizes_of_law_error(), smooth_functions(data)};
-  if (stated) laws.sizes = {{law_error_of_base * *stated, 1.0}};
+  std::erase_if(laws.sizes, [](const LawErrorSize& one) { return one.size < least_law_error; });
+  double sum = 0.0;
+  for (const LawErrorSize& one : laws.sizes) sum += one.prior;
+  for (LawErrorSize& one : laws.sizes) one.prior /= sum;
+  if (stated) {
+    laws.mechanism = *stated;
+    laws.sizes = {{law_error_of_base * *stated, 1.0}};
+  }
   return laws;
 }
 
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
                                                  const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
-                                                 const Eigen::MatrixXd& functions, double size) {
+                                                 const LawErrors& laws, double size) {
   const ImpactModel& model = candidate.model;
   const std::vector<double> full(theta.begin(), theta.end());
   PointPredictor predictor(model, data.conditions());
@@ -52,7 +65,7 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
     const std::optional<Eigen::VectorXd> less =
         squares(predictor, without_mechanism(model, full, *mechanism));
     if (!less) return std::nullopt;
-    sizes.push_back(size / law_error_of_base *
+    sizes.push_back(laws.mechanism *
                     (*all - *less).array().min(most_loss).max(-most_loss).matrix());
   }
   Eigen::VectorXd slopes(all->size());
@@ -61,21 +74,21 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
     slopes(i) =
         weighted_residual(data.points[k], weights.points[k], (*all)(i), data.noise.student).slope;
   }
-  const Eigen::Index rank = functions.cols();
+  const Eigen::Index rank = laws.functions.cols();
   Eigen::MatrixXd columns(slopes.size(), rank * static_cast<Eigen::Index>(sizes.size()));
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
-        slopes.cwiseProduct(sizes[k]).asDiagonal() * functions;
+        slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
   }
   whiten_shared(data, weights, columns);
   return columns;
 }
 
 Refit refit_with_law_error(const Candidate& candidate, const Observations& data,
-                           const Weights& weights, Refit refit, const Eigen::MatrixXd& functions,
+                           const Weights& weights, Refit refit, const LawErrors& laws,
                            double size) {
-  for (int round = 0; round < rounds && refit.usable && size > 0.0; ++round) {
-    const auto columns = law_error_columns(candidate, data, weights, refit.theta, functions, size);
+  for (int round = 0; round < rounds && refit.usable && laws.act(candidate, size); ++round) {
+    const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws, size);
     if (!columns) return {};
     refit = refit_candidate(candidate, data, weights, refit.theta, 0,
                             std::make_shared<const Discrepancy>(*columns));
@@ -88,9 +101,9 @@ namespace {
 
 /// `refit`, evaluated under the covariance of errors of one size at its parameters.
 Refit screened_with(const Candidate& candidate, const Observations& data, const Weights& weights,
-                    Refit refit, const Eigen::MatrixXd& functions, double size) {
-  if (!(size > 0.0) || !refit.usable) return refit;
-  const auto columns = law_error_columns(candidate, data, weights, refit.theta, functions, size);
+                    Refit refit, const LawErrors& laws, double size) {
+  if (!laws.act(candidate, size) || !refit.usable) return refit;
+  const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws, size);
   if (!columns) return {};
   refit.law_error = size;
   refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
@@ -139,14 +152,14 @@ RefitOverLaws averaged(const Candidate& candidate, const Observations& data, con
 RefitOverLaws refit_over_laws(const Candidate& candidate, const Observations& data,
                               const Weights& weights, const Refit& refit, const LawErrors& laws) {
   return averaged(candidate, data, refit, laws, [&](const Refit& start, double size) {
-    return refit_with_law_error(candidate, data, weights, start, laws.functions, size);
+    return refit_with_law_error(candidate, data, weights, start, laws, size);
   });
 }
 
 RefitOverLaws screen_over_laws(const Candidate& candidate, const Observations& data,
                                const Weights& weights, const Refit& refit, const LawErrors& laws) {
   return averaged(candidate, data, refit, laws, [&](const Refit&, double size) {
-    return screened_with(candidate, data, weights, refit, laws.functions, size);
+    return screened_with(candidate, data, weights, refit, laws, size);
   });
 }
 

@@ -103,14 +103,13 @@ struct Linearised {
 
 /// @return nullopt if an impact cannot be solved
 std::optional<Linearised> linearised_at(const CandidateResult& rival, const WeightedData& all,
-                                        const std::vector<double>& theta,
-                                        const Eigen::MatrixXd& functions) {
+                                        const std::vector<double>& theta, const LawErrors& laws) {
   const LeastSquaresProblem problem = impact_problem(rival.candidate.model, all.data, all.weights);
   std::vector<double> residuals(problem.residual_count);
   std::vector<double> jacobian(problem.residual_count * theta.size());
   if (!problem.evaluate(theta, residuals, jacobian)) return std::nullopt;
-  const auto columns = law_error_columns(rival.candidate, all.data, all.weights, theta, functions,
-                                         rival.refit.law_error);
+  const auto columns =
+      law_error_columns(rival.candidate, all.data, all.weights, theta, laws, rival.refit.law_error);
   if (!columns) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(problem.residual_count);
   const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
@@ -145,9 +144,10 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
   const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
   const WeightedData all = with_possible(base.fitted, possible, found.restitution);
-  const Eigen::MatrixXd functions = smooth_functions(all.data);
-  const auto here = linearised_at(rival, all, theta, functions);
-  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, functions);
+  LawErrors laws = base.laws;
+  laws.functions = smooth_functions(all.data);
+  const auto here = linearised_at(rival, all, theta, laws);
+  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
   if (!here || !there) return found;
   const Eigen::Index rows = here->slopes.rows();
   const Eigen::Index p = here->parameters;

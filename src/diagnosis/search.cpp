@@ -122,8 +122,8 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   base.laws = allowed_law_errors(spec.law_error, fitted.data);
   base.candidate.model.solver = fitted.model.solver;
   const Refit exact = refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1);
-  base.first = refit_with_law_error(base.candidate, fitted.data, fitted.weights, exact,
-                                    base.laws.functions, base.laws.sizes.front().size);
+  base.first = refit_with_law_error(base.candidate, fitted.data, fitted.weights, exact, base.laws,
+                                    base.laws.sizes.front().size);
   RefitOverLaws over =
       refit_over_laws(base.candidate, fitted.data, fitted.weights, exact, base.laws);
   base.refit = std::move(over.refit);

@@ -303,7 +303,7 @@ bool has_settings_of_several_points(const Observations& data) {
 Refit fit_with_settings(const SearchBase& base, const Refit& start, double sd) {
   const Observations& data = base.fitted.data;
   const auto laws = law_error_columns(base.candidate, data, base.fitted.weights, start.theta,
-                                      base.laws.functions, start.law_error);
+                                      base.laws, start.law_error);
   if (!laws) return {};
   const Eigen::MatrixXd settings = setting_columns(base, sd);
   Eigen::MatrixXd both(settings.rows(), laws->cols() + settings.cols());

@@ -172,7 +172,7 @@ struct DiagnosisFile {
 
   struct Exact { RECOIL_RESULT(
       (double, p_value, "p-value of the structure that the model would leave", "1"),
-      (Strings, listed, "causes that fit slightly better than an error of the laws")) };
+      (Strings, listed, "causes that would fit best, if `p_value` is at most `settings.level`")) };
 
   struct DetectionEntry { RECOIL_RESULT(
       (std::string, id, "the cause"),

@@ -359,16 +359,18 @@ std::string materials_words(const Diagnosis& d, const Adequate& answer) {
       moved, moved.empty() ? "" : " standard deviations", answer.materials->p_value_exact);
 }
 
-/// What explains the structure that exact laws would leave; empty if they leave none.
+/// The structure that would remain if the laws were exact; empty if none would.
 std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
   if (!answer.if_exact || answer.if_exact->p_value > d.options.level) return "";
   const std::vector<std::string>& ids = answer.if_exact->listed;
-  const std::string p = p_words(answer.if_exact->p_value, quick_samples);
-  if (d.spec.law_error) {
-    return fmt::format("If the laws were exact, structure would remain ({}).", p);
+  if (d.structure.p_value <= d.options.level) {
+    return "A smooth error of the laws explains this as well as any cause in the catalogue" +
+           (ids.empty() ? "." : "; the closest: " + cause_words(ids, " or ") + ".");
   }
-  return "A smooth error of the laws explains this as well as any cause in the catalogue" +
-         (ids.empty() ? "." : "; the closest: " + cause_words(ids, " or ") + ".");
+  return fmt::format("If the laws were exact, structure would remain ({}){}.",
+                     p_words(answer.if_exact->p_value, quick_samples),
+                     ids.empty() ? ", unlike any cause in the catalogue"
+                                 : ", most similar to " + cause_words(ids, " or "));
 }
 
 /// The error rates of the diagnosis for this design: one sentence for each cause and one for false

@@ -80,7 +80,11 @@ class Experiment {
 
   int series_count() const { return is("scheme", "cluster") ? 4 : 2; }
   double diameter_of(int series) const {
-    return is("sizes", "several") && series % 2 == 1 ? small_diameter : reference_diameter;
+    // Spheres of one nominal diameter are one batch; whole series can be drawn of several.
+    const double batch =
+        is("scheme", "cluster") && is("diameter_sd", "yes") ? 1.0 + 0.005 * series : 1.0;
+    return batch *
+           (is("sizes", "several") && series % 2 == 1 ? small_diameter : reference_diameter);
   }
 
   /// e of one sphere, the part of the mechanism that acts in the contact included.
