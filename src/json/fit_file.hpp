@@ -232,6 +232,11 @@ struct FitFile {
       (OrNull<double>, std_error, "standard error", "its unit"),
       (ExactIntervals, intervals, "intervals")) };
 
+  /// What fits best with exact laws: an impact that is simulated has no error of the laws.
+  struct LawsExact { RECOIL_RESULT(
+      (OrNull<double>, value, "estimate", "its unit"),
+      (OrNull<double>, std_error, "standard error", "its unit")) };
+
   struct Parameter { RECOIL_RESULT(
       (OrReason<double>, value, "estimate, or the fixed value", "its unit"),
       (std::string, unit, "unit of the parameter"),
@@ -251,7 +256,9 @@ struct FitFile {
        "propagation"),
       (OrAbsent<OrNull<double>>, budget_sd_without_first_constant, "the error that would remain if "
        "the constant with the largest share were exact", "its unit"),
-      (OrAbsent<MaterialsExact>, materials_exact, "the fit with exact constants")) };
+      (OrAbsent<MaterialsExact>, materials_exact, "the fit with exact constants"),
+      (OrAbsent<LawsExact>, laws_exact, "the fit with exact laws; simulate, plan and export take "
+       "it")) };
 
   /// A material constant with a stated error.
   struct Constant { RECOIL_RESULT(
@@ -265,7 +272,9 @@ struct FitFile {
       (std::string, distribution, "distribution of the stated error", "",
        R"({"enum": ["normal", "lognormal"]})"),
       (OrNull<double>, moved_sd, "fitted minus stated value, in standard deviations", "1"),
-      (Strings, datasets, "datasets that have this constant")) };
+      (Strings, datasets, "datasets that have this constant"),
+      (OrAbsent<LawsExact>, laws_exact, "the fit with exact laws; simulate, plan and export take "
+       "it")) };
 
   using Matrix = Named<Named<OrNull<double>>>;
 

@@ -170,6 +170,15 @@ void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& mode
   entry.budget_sd_without_first_constant.emplace(budget.sd_without_first_constant);
 }
 
+/// Sets `entry` for slot s if the fit was averaged over errors of the laws.
+void set_laws_exact(OrAbsent<FitFile::LawsExact>& entry, const FitResult& fitted, std::size_t s) {
+  const FitResult& exact = with_laws_exact(fitted);
+  if (&exact == &fitted || s >= exact.theta.size()) return;
+  if (std::ranges::find(exact.flat, s) != exact.flat.end()) return;
+  entry.emplace(FitFile::LawsExact{acting_value(exact.model, exact.theta, s),
+                                   only_if(exact.std_error[s] > 0.0, exact.std_error[s])});
+}
+
 FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
@@ -211,6 +220,7 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
         .intervals = {.wald = ends_of(exact->intervals[s][IntervalKind::wald]),
                       .profile = ends_of(exact->intervals[s][IntervalKind::profile])}});
   }
+  set_laws_exact(out.laws_exact, f, s);
   return out;
 }
 
@@ -231,6 +241,7 @@ Named<FitFile::Constant> constants_of(const Analysis& a) {
     out.distribution = is_positive(constant.constant) ? "lognormal" : "normal";
     out.moved_sd = a.fitted.constants_moved[k];
     for (const std::size_t d : constant.datasets) out.datasets.push_back(a.datasets[d].id);
+    set_laws_exact(out.laws_exact, a.fitted, j);
   }
   return all;
 }

