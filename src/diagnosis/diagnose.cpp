@@ -284,15 +284,11 @@ bool only_resembles(const CandidateResult& c) {
 
 /// Is the best explanation excluded by a better, but implausible candidate? Limits must not promote
 /// a worse cause: a plausible cause explains only if it is at most `margin` worse than the
-/// implausible one. If the implausible one leaves no structure alone, a pair explains only if it is
-/// better by `lead`.
+/// implausible one, and a pair, which has many rivals, only if it is better by `lead`.
 bool impossible_fits_better(const CandidateResult& best, const CandidateResult& impossible,
                             double margin, double lead) {
   const bool pair = best.candidate.added.size() > 1;
-  const bool does_alone =
-      impossible.set_aside == SetAside::not_possible && impossible.remaining_p >= tolerated_level;
-  return pair && does_alone ? best.delta_aicc > impossible.delta_aicc - lead
-                            : best.delta_aicc > impossible.delta_aicc + margin;
+  return best.delta_aicc > impossible.delta_aicc + (pair ? -lead : margin);
 }
 
 /// Does a pair with a parameter at its limit fit better by `lead`? Then no cause is named, as with

@@ -124,7 +124,7 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
     if (!run.ended()) return false;
     result.weights = std::move(again.weights);
     take_over(result, run);
-    const double scale = misfit_of(result, run).scale();
+    const double scale = std::max(1.0, misfit_of(result, run).scale());
     const bool done = std::abs(scale / result.noise_scale - 1.0) < at_rest;
     result.noise_scale = scale;
     result.weights_at_rest = done && again.at_rest;

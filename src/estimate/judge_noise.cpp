@@ -27,9 +27,10 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     return misfit.p_value < doubtful_level ? NoiseVerdict::doubtful : NoiseVerdict::explained;
   };
   result.noise_verdict = verdict();
-  if (result.noise_verdict == NoiseVerdict::estimated ||
-      result.noise_verdict == NoiseVerdict::exceeded) {
-    result.noise_scale = misfit.scale();
+  if (result.noise_verdict == NoiseVerdict::estimated) result.noise_scale = misfit.scale();
+  // The misfit may lie in constants or laws that are off by more than their errors.
+  if (result.noise_verdict == NoiseVerdict::exceeded) {
+    result.noise_scale = std::max(1.0, misfit.scale());
   }
   const StatedNoise& stated = result.data.noise;
   Noise& noise = result.weights.noise;

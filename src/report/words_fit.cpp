@@ -404,7 +404,9 @@ std::vector<Sentence> fit_warnings(const FitResult& fitted) {
   if (fitted.usable) {
     add_new(warnings, undetermined_warnings(fitted));
     add_new(warnings, bound_warnings(fitted));
-    if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(noise_warning(fitted));
+    if (fitted.noise_scale > 1.0 && fitted.noise_verdict == NoiseVerdict::exceeded) {
+      warnings.push_back(noise_warning(fitted));
+    }
     add_new(warnings, start_warnings(fitted));
   }
   add_new(warnings, weight_warnings(fitted));

@@ -9,6 +9,13 @@
 #include "report/words_fit.hpp"
 
 namespace recoil {
+
+std::string law_error_range(const LawErrorEstimate& laws) {
+  return laws.seen() ? fmt::format("{:.2g} [{:.2g}, {:.2g}] %", 100.0 * laws.median,
+                                   100.0 * laws.lower, 100.0 * laws.upper)
+                     : fmt::format("below {:.2g} %", 100.0 * laws.upper);
+}
+
 namespace {
 
 /// "f0 is 6.4 N/m, and the materials give 9.5 N/m", or by how much a constant moved.
@@ -53,7 +60,15 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
 Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
   const std::string p = p_words(f.p_value);
   const Sentence laws =
-      judged.laws && judged.laws->seen() ? ", even if its laws are wrong," : Sentence();
+      judged.laws && judged.laws->seen()
+          ? say(", even with laws wrong by {} of the loss", law_error_range(*judged.laws))
+          : Sentence();
+  if (f.noise_verdict == NoiseVerdict::exceeded && f.noise_scale == 1.0) {
+    return say(
+        "The model does not fit{}: its constants or laws would be off by more than their errors "
+        "({}).",
+        laws, p);
+  }
   if (f.noise_verdict == NoiseVerdict::exceeded) {
     return say(
         "The model does not fit{}: the residuals are {} times {} ({}), and all intervals are "
@@ -65,12 +80,6 @@ Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
 }
 
 }  // namespace
-
-std::string law_error_range(const LawErrorEstimate& laws) {
-  return laws.seen() ? fmt::format("{:.2g} [{:.2g}, {:.2g}] %", 100.0 * laws.median,
-                                   100.0 * laws.lower, 100.0 * laws.upper)
-                     : fmt::format("below {:.2g} %", 100.0 * laws.upper);
-}
 
 Sentence law_error_words(const ModelJudgement& judged) {
   if (!judged.laws) return {};
@@ -106,8 +115,10 @@ Sentence verdict_sentence(const FitResult& fitted) {
       text = untested_words(fitted, judged);
       break;
   }
-  if (judged.laws && judged.verdict != ModelVerdict::fits_within_law_error)
-    text += say(" {}", law_error_words(judged));
+  const bool said =
+      judged.verdict == ModelVerdict::fits_within_law_error ||
+      (judged.verdict == ModelVerdict::does_not_fit && judged.laws && judged.laws->seen());
+  if (judged.laws && !said) text += say(" {}", law_error_words(judged));
   return text;
 }
 
