@@ -91,7 +91,8 @@ TEST(LawErrors, AreATenthOfTheEffect) {
   // With one smooth function that is 1 everywhere the column of the law is a tenth of what the
   // residuals change by when the mechanism is left out, to first order in that change.
   Yielding made;
-  made.laws.functions = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(made.points.points.size()), 1);
+  made.laws.functions =
+      Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(made.points.points.size()), 1);
   std::vector<double> theta = made.yielding.model.initial();
   std::size_t own = 0;
   for (std::size_t j = 0; j < theta.size(); ++j) {

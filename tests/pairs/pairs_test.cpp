@@ -197,7 +197,8 @@ TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
 /// below? Halves of 1 to 2.4 make it 1.7 times as wide as a symmetric one.
 bool is_comparable(const Interval& interval, double estimate, const ParameterSlot& slot) {
   const double margin = 1e-6 * (slot.upper - slot.lower);
-  if (*interval.lower <= slot.lower + margin || *interval.upper >= slot.upper - margin) return false;
+  if (*interval.lower <= slot.lower + margin || *interval.upper >= slot.upper - margin)
+    return false;
   const double above = *interval.upper - estimate;
   const double below = estimate - *interval.lower;
   return above < 2.4 * below && below < 2.4 * above;
@@ -405,11 +406,10 @@ CurvePoint point_of_curve(const Made& made) {
   const FitResult& averaged = made.analysis->fitted;
   const FitResult& exact = with_laws_exact(averaged);
   if (&exact != &averaged) {
-    point.restitution =
-        std::sqrt(predict(exact.model, exact.theta,
-                          {{0, point.diameter_um * 1e-6, point.velocity}}, false)
-                      .front()
-                      .restitution_squared);
+    point.restitution = std::sqrt(
+        predict(exact.model, exact.theta, {{0, point.diameter_um * 1e-6, point.velocity}}, false)
+            .front()
+            .restitution_squared);
   }
   return point;
 }
