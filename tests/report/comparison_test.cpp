@@ -74,7 +74,8 @@ TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
 TEST(Comparison, ShowsTheErrorOfTheLaws) {
   std::string text = fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]");
   std::string seen = text;
-  seen.insert(1, R"("model_verdict": {"law_error": {"seen": true, "probability_of_exact_laws": 0.001,
+  seen.insert(1,
+              R"("model_verdict": {"law_error": {"seen": true, "probability_of_exact_laws": 0.001,
       "median": 0.021, "lower": 0.012, "upper": 0.038}}, )");
   const std::vector<ComparedFit> fits = {compared_fit("a", text), compared_fit("b", seen)};
   const std::vector<Section> sections = comparison_sections(fits);
