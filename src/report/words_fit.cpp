@@ -46,7 +46,7 @@ std::string unknown_noise_words(const FitResult& fitted) {
   return "unknown: " + unknown_noise_reason(fitted);
 }
 
-std::string verdict_words(const FitResult& fitted) {
+std::string scatter_words(const FitResult& fitted) {
   switch (fitted.noise_verdict) {
     case NoiseVerdict::unchecked:
       return fitted.weights.noise.known ? "not checked: there are no more points than parameters"
@@ -54,13 +54,12 @@ std::string verdict_words(const FitResult& fitted) {
     case NoiseVerdict::estimated:
       return variance_words(fitted);
     case NoiseVerdict::explained:
-      return fmt::format("{} explains the scatter", noise_name(fitted));
     case NoiseVerdict::doubtful:
-      return fmt::format("{} barely explains the scatter ({})", noise_name(fitted),
-                         p_words(fitted.p_value));
+      return noise_name(fitted);
     case NoiseVerdict::exceeded:
-      return fmt::format("{} does not explain the scatter ({})", noise_name(fitted),
-                         p_words(fitted.p_value));
+      return fitted.noise_scale > 1.0
+                 ? fmt::format("{:.3g} times {}", fitted.noise_scale, noise_name(fitted))
+                 : noise_name(fitted);
   }
   return "";
 }
@@ -315,7 +314,7 @@ Sentence loss_words(const Analysis& a) {
     text += fmt::format("; the points cannot distinguish it from {}", fmt::join(equals, ", "));
   }
   if (a.fitted.noise_verdict == NoiseVerdict::exceeded) {
-    text += "; no law fits the points, so quote the mean e";
+    text += "; as no law fits, quote the mean e";
   }
   return Sentence(text + ".");
 }
@@ -328,7 +327,7 @@ std::string noise_name(const FitResult& fitted) {
 
 std::string noise_words(const FitResult& fitted) {
   if (!fitted.usable) return "";
-  std::string text = verdict_words(fitted) + input_words(fitted);
+  std::string text = scatter_words(fitted) + input_words(fitted);
   if (const double spread = fitted.weights.noise.event_spread; spread > 0.0) {
     text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
                         100.0 * spread);

@@ -267,9 +267,9 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           what, 100.0 * value);
     case Caution::model_rejected:
       return say(
-          "{} follows from a model that the data reject ({}); its interval does not include the "
-          "error of the model",
-          what, p_words(value));
+          "{} follows from a model that does not fit; its interval does not include the error of "
+          "the model",
+          what);
   }
   return {};
 }
@@ -282,7 +282,7 @@ std::string short_note(Caution caution) {
                                                 {undecided_noise, ""},
                                                 {wide_spread, ""},
                                                 {mixed_sizes, ""},
-                                                {model_rejected, "the data reject the model"}};
+                                                {model_rejected, "the model does not fit"}};
   return phrase_for(phrases, caution).words;
 }
 

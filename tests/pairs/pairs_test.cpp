@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <regex>
 #include <set>
 
@@ -12,14 +13,20 @@
 #include "core/error.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "covering_array.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "document/html.hpp"
 #include "estimate/law_average.hpp"
+#include "estimate/model_verdict.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_errors.hpp"
 #include "estimate/two_point.hpp"
 #include "made_points.hpp"
+#include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
+#include "report/index_page.hpp"
 #include "report/result_json.hpp"
+#include "report/words_verdict.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 #include "uncertainty/resample.hpp"
@@ -388,6 +395,120 @@ TEST_F(Pairs, PagesHaveNoMissingNumber) {
           << std::string(found.prefix()).substr(std::max<std::ptrdiff_t>(0, found.position() - 80));
     }
   }
+}
+
+/// The words of a page, without markup, with single spaces.
+std::string words_of_page(const std::string& html) {
+  std::string words =
+      std::regex_replace(html, std::regex("<(script|style)[^>]*>[^]*?</(script|style)>"), "");
+  words = std::regex_replace(words, std::regex("<[^>]*>"), "");
+  for (const auto& [entity, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
+    words = std::regex_replace(words, std::regex(entity), letter);
+  }
+  return std::regex_replace(words, std::regex("\\s+"), " ");
+}
+
+/// Choices for fits without slow laws: of every form of data, some with mechanisms that the fit
+/// does not know, some with a point that is far off.
+struct Question {
+  Choice choice;
+  bool wrong_law = false, outlier = false;
+};
+std::vector<Question> questions(int count) {
+  std::mt19937 random(51);
+  std::vector<Question> all;
+  while (static_cast<int>(all.size()) < count) {
+    Question question;
+    for (const pairs::Feature& feature : pairs::features()) {
+      question.choice[feature.name] = feature.forms[random() % feature.forms.size()];
+    }
+    question.choice["materials"] = "averaged";
+    question.choice["scheme"] = "parametric";
+    if (question.choice["law"] == "jkr" && random() % 4 != 0) question.choice["law"] = "ring";
+    if (question.choice["sizes"] == "mixed") question.choice["sizes"] = "several";
+    question.wrong_law = random() % 3 == 0;
+    question.outlier = random() % 4 == 0;
+    const std::vector<Pair> missing = missing_pairs();
+    if (std::ranges::any_of(missing,
+                            [&](const Pair& pair) { return pairs::has(question.choice, pair); })) {
+      continue;
+    }
+    all.push_back(std::move(question));
+  }
+  return all;
+}
+
+/// The text of a fit file without its mechanisms.
+std::string without_mechanisms(const std::string& fit) {
+  return std::regex_replace(fit, std::regex("mechanisms = [^\n]*\n"), "");
+}
+
+/// A table of points whose first e is off by 0.15.
+std::string with_outlier(const std::string& table) {
+  const std::size_t row = table.find('\n') + 1;
+  std::size_t cell = row;
+  for (int k = 0; k < 3; ++k) cell = table.find(',', cell) + 1;
+  const std::size_t end = table.find(',', cell);
+  if (cell == end) return table;
+  const double e = std::stod(table.substr(cell, end - cell));
+  return table.substr(0, cell) + fmt::format("{:.6f}", e > 0.5 ? e - 0.15 : e + 0.15) +
+         table.substr(end);
+}
+
+// Whether the model fits is said once, in the same words, wherever a user looks.
+TEST(OneVerdict, StandsInEveryPlace) {
+  const std::regex another(
+      "model (barely )?(fits|does not fit|describes)|points (contradict|reject)|"
+      "explains? the scatter|data reject");
+  std::set<ModelVerdict> met;
+  int compared = 0, diagnosed = 0;
+  for (const Question& question : questions(220)) {
+    SCOPED_TRACE(pairs::words_of(question.choice));
+    const TemporaryFolder folder;
+    pairs::write_fit(question.choice, folder.path());
+    std::string fit = folder.read("fit.toml");
+    if (question.wrong_law) fit = without_mechanisms(fit);
+    fit = std::regex_replace(fit, std::regex("replicates = 19"), "replicates = 0");
+    folder.write("fit.toml", fit);
+    if (question.outlier) {
+      folder.write("data/points.csv", with_outlier(folder.read("data/points.csv")));
+    }
+    std::optional<Analysis> analysis;
+    try {
+      analysis = analysed(folder.path(), 1);
+    } catch (const ComputationError&) {
+      continue;
+    }
+    const std::string verdict = plain_text(verdict_sentence(analysis->fitted));
+    const auto says_it_once = [&](const std::string& place, std::string text) {
+      const std::size_t at = text.find(verdict);
+      ASSERT_NE(at, std::string::npos) << place << ": " << verdict << "\n" << text.substr(0, 900);
+      text.erase(at, verdict.size());
+      std::smatch found;
+      EXPECT_FALSE(std::regex_search(text, found, another))
+          << place << ": " << found.str() << " beside " << verdict;
+    };
+    const std::string json = fit_json(*analysis);
+    EXPECT_EQ(nlohmann::json::parse(json)["model_verdict"]["text"], verdict);
+    says_it_once("terminal", words_of_page(fit_text(*analysis, Importance::answer)));
+    says_it_once("page", words_of_page(fit_html(*analysis)));
+    says_it_once("card", words_of_page(html_page(index_document({{"fit.html", json}}))));
+    met.insert(judge_model(analysis->fitted).verdict);
+    ++compared;
+    const bool few = question.choice.at("law") == "none" && diagnosed < 20;
+    if (!few) continue;
+    DiagnosisOptions options;
+    options.simulated = 19;
+    options.answer_alone = true;
+    options.threads = 1;
+    const Diagnosis d = diagnose(analysis->spec, analysis->datasets, analysis->fitted, options);
+    EXPECT_EQ(nlohmann::json::parse(diagnosis_json(d))["model_verdict"]["text"], verdict);
+    says_it_once("diagnosis", words_of_page(diagnosis_text(d, Importance::answer)));
+    ++diagnosed;
+  }
+  EXPECT_GE(compared, 200);
+  EXPECT_GE(diagnosed, 10);
+  EXPECT_EQ(met.size(), 5U) << "verdicts that occur";
 }
 
 /// A point of the fitted curve, as fit.json has it; with exact laws if the fit is averaged.
