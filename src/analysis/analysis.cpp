@@ -138,6 +138,7 @@ std::vector<TwoPointComparison> comparisons_with(const FitResult& fitted,
       complete(row.standard_errors, fitted.model, true);
     }
   }
+  if (&alike != &fitted) add_headline_row(fitted, comparisons);
   return comparisons;
 }
 
@@ -160,12 +161,12 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   result.two_point = comparisons_with(fitted, result.conditional);
   bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
   result.identifiability =
-      judge_identifiability(fitted, result.intervals, result.capture, alternatives);
+      judge_identifiability(fitted, result.intervals, result.capture, level, alternatives);
   if (options.posterior) {
     result.posterior =
         sample_posterior(noise_alternatives(fitted), result.capture, sampling_options(options));
   }
-  result.odd_point = odd_point(fitted);
+  result.odd_point = odd_point(with_laws_exact(fitted));
   result.budgets = parameter_budgets(fitted);
   result.capture_budgets = capture_budgets(fitted, result.capture);
   result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,

@@ -140,7 +140,7 @@ and in pairs. The verdict is one of
   adequate        the residuals show no structure
   cause_named     exactly one cause of the catalogue explains the misfit
   not_separable   several causes explain it; recoil lists them and proposes an experiment
-  unexplained     no cause of the catalogue explains it, or the errors are larger than stated
+  unexplained     no cause of the catalogue explains it, or errors are larger or not stated
 With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a fit
 file of the extended model). Ctrl-C keeps finished work in DIR; the same command then
 continues.

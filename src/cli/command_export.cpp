@@ -9,12 +9,12 @@
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/sentence.hpp"
-#include "estimate/restitution_summary.hpp"
 #include "export/files.hpp"
 #include "export/table.hpp"
 #include "json/fit_file.hpp"
 #include "report/words_export.hpp"
 #include "report/words_restitution.hpp"
+#include "report/words_verdict.hpp"
 
 namespace recoil {
 namespace {
@@ -42,24 +42,27 @@ void set_values(Fitted& fitted, const StandardError& std_error_of) {
 Fitted fit_points(FitInputs inputs, const GivenOptions& given, bool bands) {
   const AnalysisOptions resolved = analysis_options(given);
   Analysis analysis = analyse_fit(std::move(inputs), resolved);
+  // An engine has no error of the laws: the values are those that fit best without one.
+  const FitResult& fitted = with_laws_exact(analysis.fitted);
   Fitted out;
   if (bands) {
     const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
     out.level = assess.level;
-    out.replicates = bootstrap_only(analysis.fitted, analysis.datasets, assess).bootstrap.theta;
+    out.replicates = bootstrap_only(fitted, analysis.datasets, assess).bootstrap.theta;
   }
-  out.model = analysis.fitted.model;
-  out.theta = analysis.fitted.theta;
+  out.model = fitted.model;
+  out.theta = fitted.theta;
   out.source.parameters = "fitted by all of its points";
   set_values(out, [&](std::size_t s) {
-    const double error = analysis.fitted.std_error[s];
+    const double error = fitted.std_error[s];
     return error > 0.0 ? std::optional(error) : std::nullopt;
   });
-  out.source.rmse = analysis.fitted.rmse;
-  if (analysis.fitted.noise_verdict == NoiseVerdict::exceeded) {
-    out.source.p_value = analysis.fitted.p_value;
-    out.source.mean_restitution = plain_text(join(
-        restitution_sentences(summarise_restitution(analysis.datasets), analysis.datasets), " "));
+  out.source.rmse = fitted.rmse;
+  const ModelVerdict verdict = judge_model(analysis.fitted).verdict;
+  if (verdict == ModelVerdict::does_not_fit || verdict == ModelVerdict::fits_within_law_error) {
+    out.source.misfit =
+        plain_text(verdict_sentence(analysis.fitted) + " " +
+                   join(restitution_sentences(analysis.datasets, analysis.fitted.model), " "));
   }
   out.datasets = std::move(analysis.datasets);
   return out;

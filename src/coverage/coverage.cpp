@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "estimate/law_average.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/fit_alternatives.hpp"
@@ -107,7 +108,7 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   add_resampled_intervals(fitted, replicates, own.level, own.threads, sets);
   add_resampled_captures(fitted, replicates, own.level, captures);
   const Identifiability identifiability =
-      judge_identifiability(fitted, sets, captures, alternatives);
+      judge_identifiability(fitted, sets, captures, own.level, alternatives);
   PosteriorResult posterior;
   if (own.posterior)
     posterior = sample_posterior(noise_alternatives(fitted), captures, sampling_options(own));
@@ -126,10 +127,11 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
     intervals.push_back(posterior_of(posterior.parameters, j));
     const ParameterIdentifiability& verdict = identifiability.parameter[j];
-    const double scale = std::max(std::abs(at.theta[j]), verdict.loss_scale);
-    trial.parameters.push_back(trial_row(verdict.identifiable,
-                                         std::abs(fitted.theta[j] - at.theta[j]) / scale,
-                                         at.theta[j], intervals));
+    const double off = std::abs(fitted.theta[j] - at.theta[j]);
+    // Over the truth; a truth of zero is missed by all of the estimate.
+    const double scale = std::abs(at.theta[j] != 0.0 ? at.theta[j] : fitted.theta[j]);
+    trial.parameters.push_back(
+        trial_row(verdict.identifiable, off > 0.0 ? off / scale : 0.0, at.theta[j], intervals));
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
     const CaptureEstimate& capture = captures[k];
@@ -215,7 +217,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
 }
 
 int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates) {
-  if (!fitted.weights.noise.known) return 0;
+  if (!fitted.weights.noise.known || !noise_doubts(fitted).empty()) return 0;
   if (spec.uncertainty.own_design) return *spec.uncertainty.own_design;
   if (replicates == 0 || fitted.noise_verdict == NoiseVerdict::exceeded) return 0;
   constexpr int usual = 200;
@@ -225,6 +227,7 @@ int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replic
   double seconds = fitted.data.weights_depend_on_fit() ? 2.5e-3 : 5e-4;
   if (fitted.weights.noise.event_spread > 0.0) seconds = 5e-3;
   if (mixtures || fitted.model.adhesion != AdhesionLaw::ring) seconds *= 10.0;
+  if (!fitted.laws.empty()) seconds *= 20.0;
   const double cost = usual * seconds * static_cast<double>(fitted.data.points.size());
   return cost < most_seconds ? usual : 0;
 }

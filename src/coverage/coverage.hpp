@@ -138,7 +138,8 @@ struct OwnCoverage {
 /// The number of data sets of `own_design_coverage`: that of the fit file; by default 200 if
 /// `replicates` > 0, if the points do not reject the model and if the estimated cost is below 10 s
 /// on one core. The estimate uses the number of points and the kind of fit, no clock. 0 if the
-/// noise is unknown.
+/// noise is unknown or in doubt (`noise_doubts`): then a simulation says nothing about the
+/// intervals.
 int own_design_datasets(const FitSpec& spec, const FitResult& fitted, int replicates);
 
 /// Simulates the estimate `datasets` times by `coverage_truth`, with the fit's own points, noise

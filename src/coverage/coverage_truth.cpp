@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "coverage/simulated_impacts.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "estimate/pooled_deviations.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_errors.hpp"
@@ -132,6 +133,13 @@ std::vector<DesignPoint> design_points(const FitResult& fitted,
   return design;
 }
 
+/// The sd of a mean as computed from the `impacts` that it averages, if the true one is `sd`.
+double sample_deviation(double sd, int impacts, RandomStream& random) {
+  double square = 0.0;
+  for (int k = 1; k < impacts; ++k) square += std::pow(random.normal(), 2);
+  return sd * std::sqrt(square / (impacts - 1));
+}
+
 /// Simulates a repeated measurement of the point at the truth.
 /// @param other_truth true: the truth differs from the estimate, so that captured points may
 ///   rebound and the reverse
@@ -248,6 +256,9 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
                        fit.data.noise.sd_stated, errors.scatter[i], noise, point);
         if (!point.all_captured() && !point.counts_only) {
           point.restitution = std::max(0.0, point.restitution + errors.of_restitution[i]);
+          if (fit.weights.noise.pooled_dof > 0 && pools_deviation(fit.data.points[i])) {
+            point.restitution_sd = sample_deviation(design[i].sd, point.events, noise);
+          }
         }
         ++i;
       }

@@ -73,11 +73,12 @@ struct Refit {
   /// [slots] free and not at a bound; a constant if the points determine it.
   std::vector<bool> moving;
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
+  double law_error = 0.0;  ///< size of the laws' error in it, relative to the loss [1]
 
   /// The indices of the moving slots.
   std::vector<std::size_t> moving_slots() const;
 
-  RECOIL_FIELDS(usable, theta, chi2, residuals, jacobian, moving)
+  RECOIL_FIELDS(usable, theta, chi2, residuals, jacobian, moving, law_error)
 };
 
 /// Start values for the model `to`: its moving slots take the values of `theta` under `model` that

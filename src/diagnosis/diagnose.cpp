@@ -17,6 +17,7 @@
 #include "diagnosis/trial.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "estimate/law_average.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/mechanism.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -102,7 +103,7 @@ std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
 /// Step 1: tests whether the base model leaves structure.
 /// @return the residuals of the calibrating data sets [points x data sets]
 Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
-  const StructureStatistics statistics(base.fitted.data, base.fitted.weights, base.refit,
+  const StructureStatistics statistics(base.fitted.data, base.fitted.weights, base.first,
                                        base.fitted.prediction_squared);
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
   std::vector<std::optional<std::vector<double>>> answers(count);
@@ -119,12 +120,12 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
         Eigen::Map<const Eigen::VectorXd>(answer->data(), residuals.rows());
     simulated.push_back(std::move(*answer));
   }
-  diagnosis.structure = judge_structure(statistics, base.refit.residuals, statistics(simulated));
+  diagnosis.structure = judge_structure(statistics, base.first.residuals, statistics(simulated));
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
-  diagnosis.free_form = statistics.free_form(base.refit.residuals);
+  diagnosis.free_form = statistics.free_form(base.first.residuals);
   diagnosis.free_form_p = diagnosis.structure.p_value;
   if (!diagnosis.free_form.empty()) {
-    Refit without = base.refit;
+    Refit without = base.first;
     for (std::size_t i = 0; i < without.residuals.size(); ++i) {
       without.residuals[i] -= diagnosis.free_form[i];
     }
@@ -141,6 +142,11 @@ bool beyond_a_sharp_limit(const CandidateResult& c) {
 /// Is it neither a description nor a batch effect that is equivalent to a law of size?
 bool may_be_a_cause(const CandidateResult& c) {
   return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
+}
+
+/// Is it a possible cause that fits better than the base model?
+bool may_act(const CandidateResult& c) {
+  return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
 }
 
 /// The best explanation among `candidates` (sorted, best first) and its rivals, which cannot be
@@ -278,15 +284,11 @@ bool only_resembles(const CandidateResult& c) {
 
 /// Is the best explanation excluded by a better, but implausible candidate? Limits must not promote
 /// a worse cause: a plausible cause explains only if it is at most `margin` worse than the
-/// implausible one. If the implausible one leaves no structure alone, a pair explains only if it is
-/// better by `lead`.
+/// implausible one, and a pair, which has many rivals, only if it is better by `lead`.
 bool impossible_fits_better(const CandidateResult& best, const CandidateResult& impossible,
                             double margin, double lead) {
   const bool pair = best.candidate.added.size() > 1;
-  const bool does_alone =
-      impossible.set_aside == SetAside::not_possible && impossible.remaining_p >= tolerated_level;
-  return pair && does_alone ? best.delta_aicc > impossible.delta_aicc - lead
-                            : best.delta_aicc > impossible.delta_aicc + margin;
+  return best.delta_aicc > impossible.delta_aicc + (pair ? -lead : margin);
 }
 
 /// Does a pair with a parameter at its limit fit better by `lead`? Then no cause is named, as with
@@ -350,13 +352,46 @@ std::vector<const CandidateResult*> explanations_by_pairs(const SearchBase& base
   return found;
 }
 
+Eigen::MatrixXd matrix_of(const Samples& samples) {
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(samples.front().size()),
+                          static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t b = 0; b < samples.size(); ++b) {
+    columns.col(static_cast<Eigen::Index>(b)) =
+        Eigen::Map<const Eigen::VectorXd>(samples[b].data(), columns.rows());
+  }
+  return columns;
+}
+
+/// Do errors of the laws, of a larger size than the smallest, leave no structure?
+bool law_errors_suffice(const SearchBase& base) {
+  return base.refit.law_error > base.first.law_error &&
+         quick_p_value(base, base.refit) > base.options.level;
+}
+
+/// The answer if no cause explains the structure.
+DiagnosisAnswer without_a_cause(const SearchBase& base, const Diagnosis& diagnosis, double margin) {
+  const std::vector<CandidateResult>& candidates = diagnosis.candidates;
+  const auto impossible = std::ranges::find_if(candidates, only_resembles);
+  const bool has_impossible = impossible != candidates.end();
+  if (law_errors_suffice(base) && !(has_impossible && impossible->delta_aicc < -margin)) {
+    return Adequate{{},
+                    IfExact{diagnosis.structure.p_value, best_where(may_act, candidates, margin)}};
+  }
+  if (!has_impossible ||
+      plausible_cause_fits_as_well(candidates, *impossible, base.options.chance)) {
+    return Unexplained{};
+  }
+  return Resembles{best_where(only_resembles, candidates, margin)};
+}
+
 /// Steps 2 to 5.
 /// @param simulated residuals of the calibrating data sets [points x data sets]
 DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
                        const std::vector<IntervalSet>& base_intervals, Diagnosis& diagnosis) {
   const DiagnosisOptions& options = base.options;
   diagnosis.candidates = try_singles(base);
-  calibrate(base, diagnosis.candidates, simulated);
+  const bool same_laws = base.refit.law_error == base.first.law_error;
+  calibrate(base, diagnosis.candidates, same_laws ? simulated : matrix_of(base.noise));
   const std::vector<Fold> folds =
       held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
   const bool one_size = has_one_size(base.fitted.data);
@@ -374,12 +409,10 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   if (nothing_explains(found) && gains_more_than_chance(diagnosis)) {
     found = explanations_by_pairs(base, folds, margin_in_pairs, one_size, diagnosis);
   }
-  if (nothing_explains(found)) {
-    if (!has_impossible ||
-        plausible_cause_fits_as_well(diagnosis.candidates, *impossible, options.chance)) {
-      return Unexplained{};
-    }
-    return Resembles{best_where(only_resembles, diagnosis.candidates, margin)};
+  // An error of the laws is the simpler answer unless a cause is clearly better.
+  const bool clearly = !found.empty() && found.front()->delta_aicc < -margin;
+  if (nothing_explains(found) || (!clearly && law_errors_suffice(base))) {
+    return without_a_cause(base, diagnosis, margin);
   }
   const CandidateResult& best = *found.front();
   if (errors_fit_better(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
@@ -401,14 +434,14 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (!fitted.usable) return std::nullopt;
   const SearchBase base = search_base(exact, diagnosis.datasets, fitted, diagnosis.options);
   if (!base.refit.usable) return std::nullopt;
-  const double p_value = quick_p_value(base, base.refit);
+  const double p_value = quick_p_value(base, base.first);
   if (p_value > diagnosis.options.level) return std::nullopt;
   return MaterialsExplain{p_value};
 }
 
-/// The structure left if laws are exact and, if there is any, the causes that fit it best.
+/// The structure that exact laws leave and, if there is any, the causes that fit it best.
 std::optional<IfExact> if_exact(const SearchBase& allowed) {
-  if (allowed.laws.none()) return std::nullopt;
+  if (!(allowed.first.law_error > 0.0)) return std::nullopt;
   FitSpec spec = allowed.spec;
   spec.law_error = 0.0;
   const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, allowed.options);
@@ -417,10 +450,7 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   if (found.p_value > base.options.level) return found;
   std::vector<CandidateResult> candidates = try_singles(base);
   judge(base, candidates, INFINITY, {});
-  const auto possible = [](const CandidateResult& c) {
-    return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
-  };
-  found.listed = best_where(possible, candidates, base.options.margin);
+  found.listed = best_where(may_act, candidates, base.options.margin);
   return found;
 }
 
@@ -453,8 +483,22 @@ FitResult usable(const FitSpec& spec, FitResult fitted) {
       fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
 }
 
+/// The fit as stated; `answer_alone` leaves out the error of the laws, which the answer repeats.
 FitResult usable_fit(const FitSpec& spec, const std::vector<Dataset>& datasets) {
-  return usable(spec, fit(make_model(spec, datasets), gather(datasets, spec.noise)));
+  return usable(spec,
+                fit_as_stated(spec, make_model(spec, datasets), gather(datasets, spec.noise)));
+}
+
+/// The fit that a diagnosis starts from: with exact laws, and constants that the points move.
+FitResult base_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                   const FitResult& fitted) {
+  const FitResult& exact = with_laws_exact(fitted);
+  if (exact.model.constants.empty() || exact.model.adjusts_constants()) {
+    FitResult base = exact;
+    base.laws.clear();
+    return base;
+  }
+  return usable(spec, fit(with_adjusted_materials(exact.model), gather(datasets, spec.noise)));
 }
 
 /// @throws ComputationError if the fit cannot be repeated from its own result
@@ -484,26 +528,27 @@ std::unique_ptr<DiagnosedData> other_points(const DiagnosedData& all,
 
 Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
                    const DiagnosisOptions& options) {
-  const FitSpec spec = with_constants_adjusted(stated);
+  const FitSpec spec = options.answer_alone ? with_constants_adjusted(stated) : stated;
   return diagnose(spec, datasets, usable_fit(spec, datasets), options);
 }
 
-Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
-  if (!fitted.model.constants.empty() && !fitted.model.adjusts_constants()) {
-    const FitResult adjusted =
-        usable(spec, fit(with_adjusted_materials(fitted.model), gather(datasets, spec.noise)));
-    return diagnose(with_constants_adjusted(spec), datasets, adjusted, options);
-  }
-  const auto all = all_points(spec, datasets, fitted, options);
+  const FitSpec spec = with_constants_adjusted(stated);
+  const FitResult start = base_fit(spec, datasets, fitted);
+  const bool same_fit = fitted.laws.empty() && start.theta == fitted.theta;
+  const auto all = all_points(spec, datasets, start, options);
   const std::vector<OutlyingPoint> outlying = outlying_points(all->base);
-  Diagnosis for_all = diagnose_all(all->base, base_intervals);
+  Diagnosis for_all =
+      diagnose_all(all->base, same_fit ? base_intervals : std::vector<IntervalSet>());
+  for_all.fitted = std::make_shared<const FitResult>(fitted);
   // Errors that all points have may also make points outlie, and are the simpler answer.
   const bool errors_do = std::ranges::any_of(for_all.unstated, &UnstatedErrors::leave_nothing);
   const auto others = errors_do ? nullptr : other_points(*all, outlying);
   if (!others) return for_all;
   Diagnosis diagnosis = diagnose_all(others->base, {});
+  diagnosis.fitted = for_all.fitted;
   diagnosis.outlying = outlying;
   diagnosis.for_all =
       AnswerForAll{for_all.verdict(), for_all.named(), for_all.rivals(), for_all.resembles()};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -69,9 +70,9 @@ struct MaterialsExplain {
 
 /// The structure that an adequate model leaves if laws and losses have no error (`LawErrors`).
 struct IfExact {
-  double p_value = 1.0;  ///< p-value of the structure, `quick_structure`
-  /// If the p-value is at most the level of the diagnosis: the possible causes that fit best under
-  /// exact laws, all within the margin of the first.
+  double p_value = 1.0;  ///< p-value of the structure
+  /// If the p-value is at most the level of the diagnosis: the possible causes that fit best, all
+  /// within the margin of the first.
   std::vector<std::string> listed;
 };
 
@@ -107,7 +108,7 @@ struct ExtendedModel {
 /// The answers of a diagnosis. Adequate: the base model leaves no structure.
 struct Adequate {
   std::optional<MaterialsExplain> materials;  ///< if the errors of the constants matter
-  std::optional<IfExact> if_exact;            ///< if laws are allowed an error
+  std::optional<IfExact> if_exact;
 };
 
 /// One explanation, a cause or a pair of causes, is distinguished from all others.
@@ -148,6 +149,9 @@ struct Diagnosis {
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult base;
+  /// The fit of all points as stated, on which `judge_model` gives the verdict; null for the answer
+  /// alone.
+  std::shared_ptr<const FitResult> fitted;
   DiagnosisAnswer answer;
   Structure structure;  ///< structure of the base model's residuals
   /// Points that were set aside; the other members are without them.

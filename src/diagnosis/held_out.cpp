@@ -121,8 +121,9 @@ std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets,
 
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
                                           const Weights& weights, const LawErrors& laws,
-                                          const std::vector<Fold>& folds,
-                                          std::span<const double> near, int threads) {
+                                          const std::vector<Fold>& folds, const Refit& all,
+                                          int threads) {
+  const double size = all.law_error;
   std::vector<FoldPrediction> predictions(folds.size());
   parallel_over(folds.size(), threads, [&](std::size_t f) {
     const std::vector<std::size_t> others = points_outside(folds[f], data.points.size());
@@ -130,24 +131,26 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     const Observations unseen = data.subset(folds[f].points);
     const Weights weights_seen = weights.subset(others);
     const Weights weights_unseen = weights.subset(folds[f].points);
-    const LawErrors of_seen = laws.of(others);
-    const LawErrors of_unseen = laws.of(folds[f].points);
+    const bool errors = laws.act(candidate, size);
+    const LawErrors of_seen = errors ? laws.of(others) : LawErrors();
+    const LawErrors of_unseen = errors ? laws.of(folds[f].points) : LawErrors();
     Refit start;
     start.usable = true;
-    start.theta.assign(near.begin(), near.end());
-    const Refit refit =
-        laws.none() ? refit_candidate(candidate, seen, weights_seen, near, 0)
-                    : with_law_errors(candidate, seen, weights_seen, std::move(start), of_seen);
+    start.theta = all.theta;
+    const Refit refit = errors ? refit_with_law_error(candidate, seen, weights_seen,
+                                                      std::move(start), of_seen, size)
+                               : refit_candidate(candidate, seen, weights_seen, all.theta, 0);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen, weights_unseen);
     std::vector<double> residuals(problem.residual_count);
     if (!problem.evaluate(refit.theta, residuals, {})) return;
     residuals.resize(unseen.points.size());
     double log_determinant = 0.0;
-    if (!laws.none()) {
-      const auto U_seen = law_error_columns(candidate, seen, weights_seen, refit.theta, of_seen);
+    if (errors) {
+      const auto U_seen =
+          law_error_columns(candidate, seen, weights_seen, refit.theta, of_seen, size);
       const auto U_unseen =
-          law_error_columns(candidate, unseen, weights_unseen, refit.theta, of_unseen);
+          law_error_columns(candidate, unseen, weights_unseen, refit.theta, of_unseen, size);
       if (!U_seen || !U_unseen) return;
       std::vector<double> plain = refit.residuals;
       refit.discrepancy->unwhiten(plain);

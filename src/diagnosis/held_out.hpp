@@ -41,14 +41,14 @@ struct FoldPrediction {
 };
 
 /// Predicts every fold from the other points. The errors of the laws that the other points show are
-/// applied to the fold: with residuals r and errors U of the points seen (s) and of the fold (f),
-/// the residuals of the fold are
+/// applied to the fold, of the size under which `refit` was made: with residuals r and errors U of
+/// the points seen (s) and of the fold (f), the residuals of the fold are
 ///   r_f - U_f (I + U_s' U_s)^-1 U_s' r_s, with covariance I + U_f (I + U_s' U_s)^-1 U_f'.
-/// @param near start of the refits [slots of the candidate]
+/// @param all the refit to all points, with which the refits start
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
                                           const Weights& weights, const LawErrors& laws,
-                                          const std::vector<Fold>& folds,
-                                          std::span<const double> near, int threads);
+                                          const std::vector<Fold>& folds, const Refit& all,
+                                          int threads);
 
 /// The gain of an extended model over the base on held-out data. Held-out sizes and targets decide
 /// if there are any. Bands of velocities are only shown then: the other bands may lack the impacts

@@ -257,8 +257,8 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, dou
            const std::vector<Fold>& folds) {
   std::optional<std::vector<FoldPrediction>> base_folds;  // computed when first needed
   const auto predictions_by = [&](const Candidate& candidate, const Refit& refit) {
-    return predict_folds(candidate, base.fitted.data, base.fitted.weights, base.laws, folds,
-                         refit.theta, base.options.threads);
+    return predict_folds(candidate, base.fitted.data, base.fitted.weights, base.laws, folds, refit,
+                         base.options.threads);
   };
   for (CandidateResult& c : candidates) {
     if (c.explains()) c.set_aside = reason_against(base, c);

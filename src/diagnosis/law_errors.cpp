@@ -1,7 +1,9 @@
 #include "diagnosis/law_errors.hpp"
 
+#include <cmath>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
@@ -28,16 +30,28 @@ std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<cons
 }  // namespace
 
 LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
-  LawErrors part{mechanism, base, {}};
-  part.functions.resize(static_cast<Eigen::Index>(points.size()), functions.cols());
-  if (functions.cols() > 0) part.functions = functions(points, Eigen::all);
+  LawErrors part{sizes, {}, mechanism};
+  if (functions.size() > 0) part.functions = functions(points, Eigen::all);
   return part;
+}
+
+LawErrors allowed_law_errors(std::optional<double> stated, const Observations& data) {
+  LawErrors laws{sizes_of_law_error(), smooth_functions(data)};
+  std::erase_if(laws.sizes, [](const LawErrorSize& one) { return one.size < least_law_error; });
+  double sum = 0.0;
+  for (const LawErrorSize& one : laws.sizes) sum += one.prior;
+  for (LawErrorSize& one : laws.sizes) one.prior /= sum;
+  if (stated) {
+    laws.mechanism = *stated;
+    laws.sizes = {{law_error_of_base * *stated, 1.0}};
+  }
+  return laws;
 }
 
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
                                                  const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
-                                                 const LawErrors& laws) {
+                                                 const LawErrors& laws, double size) {
   const ImpactModel& model = candidate.model;
   const std::vector<double> full(theta.begin(), theta.end());
   PointPredictor predictor(model, data.conditions());
@@ -46,7 +60,7 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
   if (!bare) return std::nullopt;
   std::vector<Eigen::VectorXd> sizes;  // size of each error, in e^2 [points]
-  sizes.push_back(laws.base * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
+  sizes.push_back(size * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
   for (const Mechanism* mechanism : model.chain) {
     const std::optional<Eigen::VectorXd> less =
         squares(predictor, without_mechanism(model, full, *mechanism));
@@ -70,11 +84,28 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   return columns;
 }
 
-Refit under_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
-                       Refit refit, const LawErrors& laws) {
-  if (laws.none() || !refit.usable) return refit;
-  const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
+Refit refit_with_law_error(const Candidate& candidate, const Observations& data,
+                           const Weights& weights, Refit refit, const LawErrors& laws,
+                           double size) {
+  for (int round = 0; round < rounds && refit.usable && laws.act(candidate, size); ++round) {
+    const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws, size);
+    if (!columns) return {};
+    refit = refit_candidate(candidate, data, weights, refit.theta, 0,
+                            std::make_shared<const Discrepancy>(*columns));
+    refit.law_error = size;
+  }
+  return refit;
+}
+
+namespace {
+
+/// `refit`, evaluated under the covariance of errors of one size at its parameters.
+Refit screened_with(const Candidate& candidate, const Observations& data, const Weights& weights,
+                    Refit refit, const LawErrors& laws, double size) {
+  if (!laws.act(candidate, size) || !refit.usable) return refit;
+  const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws, size);
   if (!columns) return {};
+  refit.law_error = size;
   refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
   refit.discrepancy->whiten(refit.residuals);
   refit.jacobian.resize(data.points.size() * refit.theta.size());
@@ -84,16 +115,52 @@ Refit under_law_errors(const Candidate& candidate, const Observations& data, con
   return refit;
 }
 
-Refit with_law_errors(const Candidate& candidate, const Observations& data, const Weights& weights,
-                      Refit refit, const LawErrors& laws) {
-  if (laws.none()) return refit;
-  for (int round = 0; round < rounds && refit.usable; ++round) {
-    const auto columns = law_error_columns(candidate, data, weights, refit.theta, laws);
-    if (!columns) return {};
-    refit = refit_candidate(candidate, data, weights, refit.theta, 0,
-                            std::make_shared<const Discrepancy>(*columns));
+/// @param refit_at (start, size) -> the refit under errors of that size
+template <class RefitAt>
+RefitOverLaws averaged(const Candidate& candidate, const Observations& data, const Refit& refit,
+                       const LawErrors& laws, const RefitAt& refit_at) {
+  constexpr double hopeless = 20.0;  // larger sizes only get worse from here
+  RefitOverLaws found;
+  double best = INFINITY, sum = 0.0;
+  Refit last = refit;
+  for (const LawErrorSize& one : laws.sizes) {
+    Refit here = refit_at(last, one.size);
+    if (!here.usable) continue;
+    const double criterion = corrected_criterion(data, here, candidate.free_count);
+    const double own = criterion - 2.0 * std::log(one.prior);
+    if (!found.refit.usable) {
+      found.first_chi2 = here.chi2;
+      found.refit = here;
+    }
+    if (own < best) {
+      sum = sum * std::exp(0.5 * (own - best)) + 1.0;
+      best = own;
+      found.refit = here;
+    } else {
+      sum += std::exp(-0.5 * (own - best));
+    }
+    if (own > best + hopeless) break;
+    last = std::move(here);
   }
-  return refit;
+  // Too few points for the criterion leave it infinite.
+  if (std::isfinite(best)) found.criterion = best - 2.0 * std::log(sum);
+  return found;
+}
+
+}  // namespace
+
+RefitOverLaws refit_over_laws(const Candidate& candidate, const Observations& data,
+                              const Weights& weights, const Refit& refit, const LawErrors& laws) {
+  return averaged(candidate, data, refit, laws, [&](const Refit& start, double size) {
+    return refit_with_law_error(candidate, data, weights, start, laws, size);
+  });
+}
+
+RefitOverLaws screen_over_laws(const Candidate& candidate, const Observations& data,
+                               const Weights& weights, const Refit& refit, const LawErrors& laws) {
+  return averaged(candidate, data, refit, laws, [&](const Refit&, double size) {
+    return screened_with(candidate, data, weights, refit, laws, size);
+  });
 }
 
 }  // namespace recoil

@@ -108,7 +108,8 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Weig
   std::vector<double> residuals(problem.residual_count);
   std::vector<double> jacobian(problem.residual_count * theta.size());
   if (!problem.evaluate(theta, residuals, jacobian)) return std::nullopt;
-  const auto columns = law_error_columns(rival.candidate, all.data, all.weights, theta, laws);
+  const auto columns =
+      law_error_columns(rival.candidate, all.data, all.weights, theta, laws, rival.refit.law_error);
   if (!columns) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(problem.residual_count);
   const Eigen::Map<const RowMajor> J(jacobian.data(), rows,

@@ -113,17 +113,21 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
                   {},
                   make_candidate(spec, datasets, {}),
                   {},
+                  {},
                   0.0,
                   1.0,
                   white_noise(quick_samples, estimated.data.points.size(), options.seed),
                   options};
   const FitResult& fitted = base.fitted;
-  base.laws = {spec.law_error, law_error_of_base * spec.law_error, smooth_functions(fitted.data)};
+  base.laws = allowed_law_errors(spec.law_error, fitted.data);
   base.candidate.model.solver = fitted.model.solver;
-  base.refit = with_law_errors(
-      base.candidate, fitted.data, fitted.weights,
-      refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1), base.laws);
-  base.criterion = corrected_criterion(fitted.data, base.refit, base.candidate.free_count);
+  const Refit exact = refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1);
+  base.first = refit_with_law_error(base.candidate, fitted.data, fitted.weights, exact, base.laws,
+                                    base.laws.sizes.front().size);
+  RefitOverLaws over =
+      refit_over_laws(base.candidate, fitted.data, fitted.weights, exact, base.laws);
+  base.refit = std::move(over.refit);
+  base.criterion = over.criterion;
   if (!fitted.data.noise.sd_stated) base.noise_scale = fitted.noise_scale;
   return base;
 }
@@ -159,7 +163,7 @@ WeightedData simulate_points(const SearchBase& base, std::span<const double> squ
 }
 
 WeightedData simulate_base(const SearchBase& base, std::uint64_t index) {
-  return simulate_points(base, base.fitted.prediction_squared, base.laws.base, index);
+  return simulate_points(base, base.fitted.prediction_squared, base.laws.sizes.front().size, index);
 }
 
 std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base,
@@ -167,8 +171,8 @@ std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base,
   using Answer = std::optional<std::vector<double>>;
   const auto make = [&]() -> Answer {
     const WeightedData sample = simulate_base(base, index);
-    Refit refit = refit_candidate(base.candidate, sample.data, sample.weights, base.refit.theta, 0,
-                                  base.refit.discrepancy);
+    Refit refit = refit_candidate(base.candidate, sample.data, sample.weights, base.first.theta, 0,
+                                  base.first.discrepancy);
     if (!refit.usable) return std::nullopt;
     return std::move(refit.residuals);
   };

@@ -17,11 +17,12 @@ namespace recoil {
 struct SearchBase {
   const FitSpec& spec;
   const std::vector<Dataset>& datasets;
-  FitResult fitted;     ///< every candidate is fitted to its `data`
-  LawErrors laws;       ///< the allowed errors of every model
-  Candidate candidate;  ///< the base model, without added mechanisms
-  Refit refit;
-  double criterion = 0.0;
+  FitResult fitted;          ///< every candidate is fitted to its `data`
+  LawErrors laws;            ///< the allowed errors of every model
+  Candidate candidate;       ///< the base model, without added mechanisms
+  Refit first;               ///< the refit under the smallest error of the laws
+  Refit refit;               ///< under the likeliest
+  double criterion = 0.0;    ///< averaged over the errors of the laws
   double noise_scale = 1.0;  ///< noise scale of the base; 1 if standard deviations are stated
   Samples noise;             ///< white noise, for `quick_structure`
   const DiagnosisOptions& options;
@@ -40,10 +41,10 @@ WeightedData simulate_points(const SearchBase& base, std::span<const double> squ
                              std::uint64_t index);
 
 /// Replicate `index` of the sample under the base model, whose losses have a smooth error of the
-/// size that `laws` allows.
+/// smallest size that `laws` allows.
 WeightedData simulate_base(const SearchBase& base, std::uint64_t index);
 
-/// The residuals of the refit of replicate `index`, whitened like those of `base.refit` [points];
+/// The residuals of the refit of replicate `index`, whitened like those of `base.first` [points];
 /// nullopt if the refit fails. Uses the kept result if there is one.
 std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base, std::uint64_t index);
 

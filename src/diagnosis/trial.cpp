@@ -67,11 +67,11 @@ MechanismKind kind_of(const std::vector<std::string>& ids) {
 }
 
 /// See `CandidateResult::remaining_part`.
-double remaining_part_of(const SearchBase& base, const CandidateResult& candidate) {
+double remaining_part_of(const SearchBase& base, const Candidate& candidate, double chi2) {
   if (!base.fitted.data.noise.sd_stated) return 1.0;  // the size of the misfit is unknown
   const auto n = static_cast<double>(base.fitted.data.points.size());
-  const double before = base.refit.chi2 - (n - base.candidate.free_count);
-  const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
+  const double before = base.first.chi2 - (n - base.candidate.free_count);
+  const double after = chi2 - (n - candidate.free_count);
   return before > 0.0 ? after / before : 1.0;
 }
 
@@ -117,13 +117,11 @@ bool can_be_released(const Candidate& candidate) {
 }
 
 /// The properties and the gain of a fitted candidate.
-CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
-  const Observations& data = base.fitted.data;
-  CandidateResult result = described(base, std::move(candidate), std::move(refit), 0.0);
+CandidateResult examine(const SearchBase& base, Candidate candidate, RefitOverLaws over) {
+  CandidateResult result = described(base, std::move(candidate), std::move(over.refit), 0.0);
   if (!result.refit.usable) return result;
-  result.delta_aicc =
-      corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
-  result.remaining_part = remaining_part_of(base, result);
+  result.delta_aicc = over.criterion - base.criterion;
+  result.remaining_part = remaining_part_of(base, result.candidate, over.first_chi2);
   return result;
 }
 
@@ -312,12 +310,9 @@ void screen(const SearchBase& base, Screening& screening) {
     }
   }
   screening.delta_aicc = std::min(screening.first->delta_aicc, screening.second->delta_aicc);
-  const Refit seen =
-      under_law_errors(screening.both, data, base.fitted.weights, screening.refit, base.laws);
-  if (!seen.usable) return;
-  screening.delta_aicc =
-      std::min(screening.delta_aicc,
-               corrected_criterion(data, seen, screening.both.free_count) - base.criterion);
+  const RefitOverLaws seen =
+      screen_over_laws(screening.both, data, base.fitted.weights, screening.refit, base.laws);
+  screening.delta_aicc = std::min(screening.delta_aicc, seen.criterion - base.criterion);
 }
 
 /// Reads the screening from the kept rows, or computes it.
@@ -355,10 +350,10 @@ CandidateResult try_both(const SearchBase& base, Screening screening, bool follo
   const CandidateResult& first = *screening.first;
   const CandidateResult& second = *screening.second;
   const Observations& data = base.fitted.data;
-  const auto apply_laws = follow ? with_law_errors : under_law_errors;
-  Refit refit =
-      apply_laws(screening.both, data, base.fitted.weights, std::move(screening.refit), base.laws);
-  CandidateResult result = examine(base, std::move(screening.both), std::move(refit));
+  const auto over_laws = follow ? refit_over_laws : screen_over_laws;
+  RefitOverLaws over =
+      over_laws(screening.both, data, base.fitted.weights, screening.refit, base.laws);
+  CandidateResult result = examine(base, std::move(screening.both), std::move(over));
   if (follow) try_released(base, result, tries_in_pairs);
   find_remaining_p(base, result);
   if (!follow) {
@@ -412,10 +407,10 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
 
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries) {
-  Refit refit = with_law_errors(
+  RefitOverLaws over = refit_over_laws(
       candidate, base.fitted.data, base.fitted.weights,
       refit_candidate(candidate, base.fitted.data, base.fitted.weights, near, tries), base.laws);
-  return examine(base, std::move(candidate), std::move(refit));
+  return examine(base, std::move(candidate), std::move(over));
 }
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {

@@ -75,20 +75,24 @@ double square_sd(const Observation& point, const PointWeights& weights) {
   return std::hypot(std::max(2.0 * e, weights.sd) * weights.sd, weights.input_sd);
 }
 
-/// -2 ln likelihood of a fit up to a constant, including the terms that depend on the weights.
-double deviance_with_weights(const FitResult& fitted, std::span<const double> residuals) {
+/// The terms of -2 ln likelihood that depend on the weights alone.
+double deviance_of_weights(const FitResult& fitted) {
   const Observations& data = fitted.data;
   double sum = SharedErrors(data, fitted.weights).log_determinant();
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
-    sum += residuals[i] * residuals[i];
     if (!point.censored) sum += 2.0 * std::log(square_sd(point, fitted.weights.points[i]));
   }
   return sum;
 }
 
-double deviance_with_weights(const FitResult& fitted, const Refit& refit) {
-  return deviance_with_weights(fitted, refit.residuals) + refit.discrepancy->log_determinant();
+/// -2 ln likelihood of a fit up to a constant, including the terms that depend on the weights.
+double deviance_with_weights(const FitResult& fitted) {
+  double sum = deviance_of_weights(fitted);
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    sum += fitted.residuals[i] * fitted.residuals[i];
+  }
+  return sum;
 }
 
 /// The fraction of `simulated` residuals with at least this ratio of the fourth moment to the
@@ -187,22 +191,22 @@ std::optional<UnstatedErrors> likeliest(const SearchBase& base, UnstatedSource s
                                         double most, const FitWith& fit_with) {
   const std::optional<double> value = best_error(base, least, most, [&](double sd) {
     const FitResult fitted = fit_with(sd);
-    return fitted.usable ? deviance_with_weights(fitted, fitted.residuals) : INFINITY;
+    return fitted.usable ? deviance_with_weights(fitted) : INFINITY;
   });
   if (!value) return std::nullopt;
   const FitResult fitted = fit_with(*value);
   if (!fitted.usable) return std::nullopt;
-  const Refit refit = with_law_errors(
-      base.candidate, fitted.data, fitted.weights,
+  Candidate one_more = base.candidate;  // the size of the errors is a parameter, too
+  ++one_more.free_count;
+  const auto [refit, criterion, chi2] = refit_over_laws(
+      one_more, fitted.data, fitted.weights,
       refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1), base.laws);
   if (!refit.usable) return std::nullopt;
-  const int free = base.candidate.free_count;
   UnstatedErrors found;
   found.source = source;
   found.value = *value;
   found.delta_aicc =
-      corrected_criterion(fitted.data, deviance_with_weights(fitted, refit), free + 1) -
-      corrected_criterion(base.fitted.data, deviance_with_weights(base.fitted, base.refit), free);
+      criterion + deviance_of_weights(fitted) - base.criterion - deviance_of_weights(base.fitted);
   found.remaining_p = remaining_p(base, fitted.data, fitted, refit);
   return found;
 }
@@ -248,7 +252,7 @@ std::optional<UnstatedErrors> reading_errors(const SearchBase& base) {
 }
 
 std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
-  const double chi2 = base.refit.chi2;
+  const double chi2 = base.first.chi2;
   const auto dof = static_cast<double>(base.fitted.dof);
   if (dof < 1.0 || chi2 <= dof) return std::nullopt;
   const int free = base.candidate.free_count;
@@ -256,11 +260,12 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   UnstatedErrors found;
   found.source = UnstatedSource::larger_deviations;
   found.value = std::sqrt(chi2 / dof);
-  found.delta_aicc = corrected_criterion(base.fitted.data, n * std::log(chi2 / n) + n, free + 1) -
-                     corrected_criterion(base.fitted.data, chi2, free);
+  found.delta_aicc = corrected_criterion(base.fitted.data, n * std::log(chi2 / n) + n, free + 1) +
+                     base.first.discrepancy->log_determinant() -
+                     2.0 * std::log(base.laws.sizes.front().prior) - base.criterion;
   Observations unsized = base.fitted.data;
   unsized.noise.sd_stated = false;
-  found.remaining_p = remaining_p(base, unsized, base.fitted, base.refit);
+  found.remaining_p = remaining_p(base, unsized, base.fitted, base.first);
   return found;
 }
 
@@ -293,16 +298,17 @@ bool has_settings_of_several_points(const Observations& data) {
       data.points, [&](const Observation& point) { return !seen.insert(point.setting).second; });
 }
 
-/// Refits the base model under the errors of its laws and a shared error of settings of size `sd`.
-Refit fit_with_settings(const SearchBase& base, double sd) {
+/// Refits the base model under a shared error of settings of size `sd`, and errors of its laws of
+/// the size of `start`.
+Refit fit_with_settings(const SearchBase& base, const Refit& start, double sd) {
   const Observations& data = base.fitted.data;
-  const auto laws =
-      law_error_columns(base.candidate, data, base.fitted.weights, base.refit.theta, base.laws);
+  const auto laws = law_error_columns(base.candidate, data, base.fitted.weights, start.theta,
+                                      base.laws, start.law_error);
   if (!laws) return {};
   const Eigen::MatrixXd settings = setting_columns(base, sd);
   Eigen::MatrixXd both(settings.rows(), laws->cols() + settings.cols());
   both << *laws, settings;
-  return refit_candidate(base.candidate, data, base.fitted.weights, base.refit.theta, 1,
+  return refit_candidate(base.candidate, data, base.fitted.weights, start.theta, 1,
                          std::make_shared<const Discrepancy>(both));
 }
 
@@ -313,17 +319,19 @@ std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   }
   if (!has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;
+  const Refit& start = base.first;
   const std::optional<double> sd =
       best_error(base, smallest_setting_error, largest_error, [&](double size) {
-        const Refit refit = fit_with_settings(base, size);
+        const Refit refit = fit_with_settings(base, start, size);
         return refit.usable ? corrected_criterion(data, refit, free + 1) : INFINITY;
       });
   if (!sd) return std::nullopt;
-  const Refit refit = fit_with_settings(base, *sd);
+  const Refit refit = fit_with_settings(base, start, *sd);
   if (!refit.usable) return std::nullopt;
   UnstatedErrors found;
   found.source = UnstatedSource::shared_setting;
-  found.delta_aicc = corrected_criterion(data, refit, free + 1) - base.criterion;
+  found.delta_aicc = corrected_criterion(data, refit, free + 1) -
+                     2.0 * std::log(base.laws.sizes.front().prior) - base.criterion;
   found.value = std::hypot(*sd, base.fitted.weights.noise.setting_sd);
   found.remaining_p = remaining_p(base, data, base.fitted, refit);
   return found;

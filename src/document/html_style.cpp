@@ -106,9 +106,9 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   border-top: 1px solid var(--line); }
 .verdict .mark { display: inline-block; min-width: 1.4em; font-weight: 700; text-align: center;
   border: 1px solid currentColor; border-radius: .3rem; }
-.verdict.adequate .mark { color: var(--good); }
-.verdict.cause_named .mark { color: var(--accent); }
-.verdict.not_separable .mark, .verdict.unexplained .mark { color: var(--doubt); }
+.verdict.fits .mark, .verdict.fits_with_moved_constants .mark { color: var(--good); }
+.verdict.fits_within_law_error .mark { color: var(--accent); }
+.verdict.does_not_fit .mark, .verdict.untested .mark { color: var(--doubt); }
 .card .wide { width: 100%; border: 0; margin: 0; border-radius: 0; }
 .card table { font-size: .86rem; }
 .card tbody th, .card td:last-child { white-space: normal; }

@@ -14,6 +14,8 @@ std::vector<ErrorPart> ErrorSource::parts(const Observation& point) const {
       return {{point.setting}};
     case SharedBy::series:
       return {{point.batch}};
+    case SharedBy::size:
+      return {{point.size}};
     case SharedBy::launch:
     case SharedBy::none:
       break;
@@ -24,7 +26,8 @@ std::vector<ErrorPart> ErrorSource::parts(const Observation& point) const {
 std::span<const ErrorSource* const> error_sources() {
   static const std::array all = {&velocity_error(),        &diameter_error(),
                                  &setting_error(),         &setting_velocity_error(),
-                                 &series_diameter_error(), &instant_error()};
+                                 &series_diameter_error(), &batch_diameter_error(),
+                                 &instant_error()};
   return all;
 }
 

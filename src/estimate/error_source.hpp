@@ -13,7 +13,7 @@ namespace recoil {
 struct Observations;
 
 /// The points that have one draw of an error in common.
-enum class SharedBy { none, setting, series, launch };
+enum class SharedBy { none, setting, series, size, launch };
 
 /// Relative standard deviations of the inputs of a point, of which one or none is above 0 [1].
 struct InputShift {

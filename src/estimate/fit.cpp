@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "estimate/estimated_parts.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/judge_noise.hpp"
 #include "estimate/misfit.hpp"
@@ -123,7 +124,7 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
     if (!run.ended()) return false;
     result.weights = std::move(again.weights);
     take_over(result, run);
-    const double scale = misfit_of(result, run).scale();
+    const double scale = std::max(1.0, misfit_of(result, run).scale());
     const bool done = std::abs(scale / result.noise_scale - 1.0) < at_rest;
     result.noise_scale = scale;
     result.weights_at_rest = done && again.at_rest;
@@ -239,10 +240,14 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   }
   result.strained_points = count_strained(result.data, result.weights);
   result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
+  set_estimated_parts(result, best);
   result.spread_covariance =
       event_spread_covariance(model, result.theta, result.data, result.weights, best.covariance);
   for (std::size_t k = 0; k < result.spread_covariance.size(); ++k) {
     result.covariance[k] += result.spread_covariance[k];
+    for (EstimatedPart& part : result.estimated) {
+      if (part.error == Estimated::spread) part.covariance[k] += result.spread_covariance[k];
+    }
   }
   result.constant_effects = constant_effects(model, best, result.data.points.size());
   add_constant_effects(result.constant_effects, result.covariance);
@@ -261,20 +266,23 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
 int degrees_of_freedom(const FitResult& fitted, std::span<const double> gradient) {
   if (fitted.quantile_dof == 0 || fitted.covariance.empty()) return fitted.quantile_dof;
   const std::size_t p = gradient.size();
-  double variance = 0.0;
-  for (std::size_t a = 0; a < p; ++a) {
-    for (std::size_t b = 0; b < p; ++b) {
-      variance += gradient[a] * fitted.covariance[a * p + b] * gradient[b];
+  const auto variance_by = [&](const std::vector<double>& covariance) {
+    double variance = 0.0;
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) {
+        variance += gradient[a] * covariance[a * p + b] * gradient[b];
+      }
     }
-  }
-  double rest = variance;
-  for (const std::vector<double>& effect : fitted.constant_effects) {
-    rest -= std::pow(std::inner_product(effect.begin(), effect.end(), gradient.begin(), 0.0), 2);
-  }
+    return variance;
+  };
+  const double variance = variance_by(fitted.covariance);
   if (!(variance > 0.0)) return fitted.quantile_dof;
+  double sum = 0.0;
+  for (const EstimatedPart& part : fitted.estimated) {
+    sum += std::pow(variance_by(part.covariance) / variance, 2) / part.dof;
+  }
   constexpr double normal = 1e6;  // above it, the quantiles are normal to six digits
-  const double ratio = variance / std::max(rest, 1e-9 * variance);
-  return static_cast<int>(std::min(normal, fitted.quantile_dof * ratio * ratio * (1.0 + 1e-9)));
+  return static_cast<int>(std::min(normal, (1.0 + 1e-9) / std::max(sum, 1.0 / normal)));
 }
 
 int degrees_of_freedom(const FitResult& fitted, std::size_t slot) {

@@ -70,6 +70,16 @@ struct FitAtPoints {
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
 };
 
+/// An error that the points determine.
+enum class Estimated { noise, spread, setting };
+
+/// The part of the covariance that an estimated error causes, and how well that error is known.
+struct EstimatedPart {
+  Estimated error = Estimated::noise;
+  int dof = 0;                     ///< degrees of freedom of its estimate
+  std::vector<double> covariance;  ///< [slots x slots]
+};
+
 /// The errors of the parameters.
 struct FitErrors {
   std::vector<double> covariance;  ///< [slots x slots]; scaled by noise_scale^2
@@ -79,6 +89,7 @@ struct FitErrors {
   /// deviation above its stated value [constant][slot]. `covariance` includes their outer products.
   std::vector<std::vector<double>> constant_effects;
   std::vector<double> std_error;  ///< [slots]; 0 for fixed ones and those at a bound
+  std::vector<EstimatedPart> estimated;
   /// Degrees of freedom of the estimated error that has the fewest; 0: no error is estimated. For
   /// the quantiles of an interval see `degrees_of_freedom`.
   int quantile_dof = 0;
@@ -135,9 +146,10 @@ struct FitResult : FitEnd, FitAtPoints, FitErrors, FitQuality {
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});
 
 /// Degrees of freedom of Student's t, whose quantiles turn the standard error of a quantity with
-/// this gradient [slots] into an interval. With v its variance, of which the part v_c comes from
-/// stated errors of constants, and `quantile_dof` for the rest, v^2 / ((v - v_c)^2 / quantile_dof)
-/// (Satterthwaite 1946, Biometrics Bull. 2, 110), rounded down. 0: the quantiles are normal.
+/// this gradient [slots] into an interval. With v its variance, and v_k the part of it that an
+/// estimated error of nu_k degrees of freedom causes, v^2 / sum (v_k^2 / nu_k) (Satterthwaite 1946,
+/// Biometrics Bull. 2, 110), rounded down. Stated errors, also those of constants and of the laws,
+/// are known. 0: the quantiles are normal.
 int degrees_of_freedom(const FitResult& fitted, std::span<const double> gradient);
 /// The same for a slot.
 int degrees_of_freedom(const FitResult& fitted, std::size_t slot);

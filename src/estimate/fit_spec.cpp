@@ -95,9 +95,10 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
        "seed of the random numbers; fixes every digit of every output"},
 
-      {"diagnosis", "law_error", fmt::format("{:g}", fit.law_error),
+      {"diagnosis", "law_error", "",
        "relative error, smooth in V and d, that a diagnosis allows in the law of a mechanism; "
-       "three tenths of it in the losses of the base model; 0: the laws are exact"},
+       "three tenths of it in the losses of the base model; 0: the laws are exact. Default: every "
+       "explanation is averaged over the errors that a fit averages over"},
   };
 }
 

@@ -111,9 +111,10 @@ struct FitSpec {
   NoiseSpec noise;
   Location variance_place;  ///< place of the variance function in the file, for messages
   UncertaintySpec uncertainty;
-  double law_error = 0.1;  ///< `[diagnosis]`: relative, smooth error of the law of a mechanism [1]
-  std::string text;        ///< the file's text
-  std::string sha256;      ///< its SHA-256
+  /// `[diagnosis]`: relative, smooth error of the law of a mechanism [1]; empty: averaged over.
+  std::optional<double> law_error;
+  std::string text;    ///< the file's text
+  std::string sha256;  ///< its SHA-256
 
   /// The entry of `parameters`, or `default_of` if there is none.
   ParameterSpec statement_of(const Parameter& parameter) const;

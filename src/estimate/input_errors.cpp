@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "estimate/observations.hpp"
 
@@ -75,6 +77,30 @@ const ErrorSource& series_diameter_error() {
       SharedBy::series, &Observation::series_diameter_sd, &Observation::diameter,
       &InputShift::diameter);
   return source;
+}
+
+const ErrorSource& batch_diameter_error() {
+  static const ErrorOfInput source(
+      {"batch_diameter", "diameter_sd", "errors of the diameters of batches"}, SharedBy::size,
+      &Observation::batch_diameter_sd, &Observation::diameter, &InputShift::diameter);
+  return source;
+}
+
+void find_batches(std::vector<Observation>& points) {
+  std::map<std::pair<std::size_t, double>, std::vector<Observation*>> sizes;
+  for (Observation& point : points) sizes[{point.dataset, point.diameter}].push_back(&point);
+  std::size_t number = 0;
+  for (auto& [size, own] : sizes) {
+    const double sd = own.front()->diameter_sd;
+    const bool batch = own.size() > 1 && std::ranges::all_of(own, [sd](const Observation* point) {
+                         return point->diameter_sd == sd && point->series_diameter_sd == 0.0;
+                       });
+    for (Observation* point : own) {
+      point->size = number;
+      if (batch) std::swap(point->diameter_sd, point->batch_diameter_sd);
+    }
+    ++number;
+  }
 }
 
 }  // namespace recoil

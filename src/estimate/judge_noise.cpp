@@ -27,9 +27,10 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     return misfit.p_value < doubtful_level ? NoiseVerdict::doubtful : NoiseVerdict::explained;
   };
   result.noise_verdict = verdict();
-  if (result.noise_verdict == NoiseVerdict::estimated ||
-      result.noise_verdict == NoiseVerdict::exceeded) {
-    result.noise_scale = misfit.scale();
+  if (result.noise_verdict == NoiseVerdict::estimated) result.noise_scale = misfit.scale();
+  // The misfit may lie in constants or laws that are off by more than their errors.
+  if (result.noise_verdict == NoiseVerdict::exceeded) {
+    result.noise_scale = std::max(1.0, misfit.scale());
   }
   const StatedNoise& stated = result.data.noise;
   Noise& noise = result.weights.noise;
@@ -47,12 +48,12 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     result.noise_scale = 1.0;
     result.noise_verdict = NoiseVerdict::unchecked;
   }
-  const auto known_by = [&](int dof) {
-    if (dof > 0 && (result.quantile_dof == 0 || dof < result.quantile_dof)) {
-      result.quantile_dof = dof;
-    }
+  const auto known_by = [&](Estimated error, int dof) {
+    if (dof <= 0) return;
+    result.estimated.push_back({error, dof, {}});
+    if (result.quantile_dof == 0 || dof < result.quantile_dof) result.quantile_dof = dof;
   };
-  if (!stated.sd_stated) known_by(result.dof);
+  known_by(Estimated::noise, stated.sd_stated ? noise.pooled_dof : result.dof);
   if (noise.event_spread > 0.0) {
     // Degrees of freedom of the spread of the impacts: those in the range where some spheres stick
     // count, and single impacts in proportion to the part of their variance that comes from the
@@ -67,10 +68,10 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
         impacts += std::pow(1.0 - std::pow(own.sd / own.mean_sd, 2), 2);
       }
     }
-    known_by(std::max(1, static_cast<int>(impacts) - 1));
+    known_by(Estimated::spread, std::max(1, static_cast<int>(impacts) - 1));
   }
   if (stated.setting_sd_estimated) {
-    known_by(spare_settings(result.data, result.model.free_count()));
+    known_by(Estimated::setting, spare_settings(result.data, result.model.free_count()));
   }
 }
 

@@ -153,6 +153,20 @@ double quantile_of(const std::vector<double>& weights, double p) {
 
 }  // namespace
 
+std::vector<LawErrorSize> sizes_of_law_error() {
+  std::vector<LawErrorSize> all = {{0.0, exact_prior}};
+  for (const double size : sizes_of_error) {
+    all.push_back({size, (1.0 - exact_prior) / static_cast<double>(sizes_of_error.size())});
+  }
+  return all;
+}
+
+bool LawErrorEstimate::seen() const {
+  constexpr double least_bayes_factor = 20.0;
+  const double odds_of_wrong = (1.0 - exact_weight) / exact_weight;
+  return odds_of_wrong >= least_bayes_factor * (1.0 - exact_prior) / exact_prior;
+}
+
 FitResult fit_over_laws(const ImpactModel& model, Observations data, const FitOptions& options) {
   return on_threads(options.threads,
                     [&] { return averaged_here(model, std::move(data), options); });

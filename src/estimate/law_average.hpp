@@ -1,10 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "estimate/fit.hpp"
 
 namespace recoil {
+
+/// A size of the error of the laws, with its prior probability.
+struct LawErrorSize {
+  double size = 0.0;   ///< standard deviation of the error relative to the loss [1]; 0: exact laws
+  double prior = 1.0;  ///< probability [1]
+};
+/// All sizes, ascending; see `fit_over_laws`.
+std::vector<LawErrorSize> sizes_of_law_error();
 
 /// The fit averaged over how wrong the laws are.
 ///
@@ -37,8 +46,10 @@ struct LawErrorEstimate {
   double median = 0.0;              ///< of their error, if they are not exact [1]
   double lower = 0.0, upper = 0.0;  ///< interval of the error, 0 included [1]
 
-  /// Is an error seen? The laws are then exact with a probability of at most 5 %.
-  bool seen() const { return exact_weight <= 0.05; }
+  /// Is an error seen? The points must be 20 times as probable with wrong laws as with exact ones
+  /// (Bayes factor). Points made by exact laws are so in at most 1 of 20 sets (Markov's inequality;
+  /// Ville 1939, Etude critique de la notion de collectif).
+  bool seen() const;
 };
 /// @return nullopt if the fit was not averaged
 std::optional<LawErrorEstimate> law_error_of(const FitResult& fitted, double level);

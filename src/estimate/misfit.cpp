@@ -46,7 +46,7 @@ void add_constant_effects(const std::vector<std::vector<double>>& effects,
 double Misfit::scale() const {
   if (dof <= 0) return 1.0;
   // Lower limit of the divisor, for few points whose information mostly determines the constants.
-  const double left = std::max(dof - learned, 0.25 * dof);
+  const double left = std::max(expected - learned, 0.25 * expected);
   return std::sqrt(point_square / left);
 }
 
@@ -72,14 +72,23 @@ Misfit misfit(const Observations& data, const Weights& weights, std::span<const 
   const std::optional<StudentNoise>& student = data.noise.student;
   std::vector<double> plain;  // residuals before the transformation to Student's t
   int informative = 0;
+  const bool counts =
+      data.noise.sd_stated && std::ranges::any_of(data.points, &Observation::counts_only);
+  double of_counts = 0.0, variance_of_counts = 0.0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
     if (!data.noise.sd_stated && point.censored) continue;
     // A captured point that the model also captures has a residual near zero for any parameters: it
     // determines a sign, not a value, and is no degree of freedom of the noise.
-    if (point.informs(predicted[i])) ++informative;
-    double r = student ? student->original(residuals[i]) : residuals[i];
     const PointWeights& own = weights.points[i];
+    if (counts && point.censored && own.scatter > 0.0) {
+      const CountMoments moments = count_moments(point, own, predicted[i]);
+      of_counts += moments.mean;
+      variance_of_counts += moments.variance;
+    } else if (point.informs(predicted[i])) {
+      ++informative;
+    }
+    double r = student ? student->original(residuals[i]) : residuals[i];
     if (!data.noise.sd_stated && own.scatter > 0.0) {
       r = (point.restitution - expected_restitution(point, own, predicted[i])) / own.mean_sd;
     }
@@ -93,10 +102,22 @@ Misfit misfit(const Observations& data, const Weights& weights, std::span<const 
   result.point_square = result.square;
   result.learned = constants.learned;
   if (data.noise.sd_stated) result.square += constants.square;
-  result.dof = informative - free_count;
+  const int estimated = free_count + (counts ? 1 : 0);
+  result.expected = informative + of_counts - estimated;
+  result.dof = static_cast<int>(std::lround(result.expected));
   if (result.dof <= 0) return result;
-  result.p_value =
-      student ? student->p_value(plain, result.dof) : gsl_cdf_chisq_Q(result.square, result.dof);
+  const int pooled = weights.noise.pooled_dof;
+  if (student) {
+    result.p_value = student->p_value(plain, result.dof);
+  } else if (pooled > 0) {
+    result.p_value = gsl_cdf_fdist_Q(result.square / result.dof, result.dof, pooled);
+  } else if (counts) {
+    const double variance = variance_of_counts + 2.0 * (informative - estimated);
+    const double unit = std::max(variance, result.expected) / (2.0 * result.expected);
+    result.p_value = gsl_cdf_chisq_Q(result.square / unit, result.expected / unit);
+  } else {
+    result.p_value = gsl_cdf_chisq_Q(result.square, result.dof);
+  }
   return result;
 }
 

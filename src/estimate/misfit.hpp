@@ -56,12 +56,19 @@ struct Misfit {
                         ///< of both is dof
   double point_square = 0.0;  ///< the part from the points, without the constants
   double learned = 0.0;       ///< ConstantsInFit::learned
-  int dof = 0;  ///< points minus free parameters; captured points that the model also captures do
-                ///< not count, as they cannot scatter
-  double p_value = 1.0;  ///< of `square` under the present weights; 1 without dof. For Student's t,
-                         ///< see StudentNoise::p_value
+  /// The expectation of `square`, without the constants: points minus free parameters. Captured
+  /// points that the model also captures do not count, as they cannot scatter. If some
+  /// points only count captures, counts add the mean of `count_moments`, and the spread of the
+  /// impacts that they determine takes one away.
+  double expected = 0.0;
+  int dof = 0;  ///< `expected`, rounded
+  /// Of `square` under the present weights; 1 without dof. With counts, `square` is taken as a
+  /// multiple of chi-squared with its mean and variance (Satterthwaite 1946, Biometrics Bull. 2,
+  /// 110). For pooled standard deviations see `pool_deviations`: it is F-distributed. For Student's
+  /// t, see StudentNoise::p_value.
+  double p_value = 1.0;
 
-  /// sqrt(point_square / (dof - learned)): the factor by which the standard deviations are too
+  /// sqrt(point_square / (expected - learned)): the factor by which the standard deviations are too
   /// small; 1 without dof.
   double scale() const;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 namespace recoil {
 namespace {
@@ -23,6 +25,17 @@ std::optional<std::size_t> farthest_constant(const FitResult& fitted) {
 
 }  // namespace
 
+bool tests_the_curve(const FitResult& fitted) {
+  std::set<std::tuple<std::size_t, double, double>> places;
+  for (const Observation& point : fitted.data.points) {
+    places.insert({point.dataset, point.diameter, point.velocity});
+  }
+  const auto& slots = fitted.model.slots;
+  const auto free = std::ranges::count_if(
+      slots, [](const ParameterSlot& slot) { return slot.free && !slot.is_constant(); });
+  return places.size() > static_cast<std::size_t>(free);
+}
+
 ModelJudgement judge_model(const FitResult& fitted, double level) {
   const FitResult& exact = with_laws_exact(fitted);
   ModelJudgement judged;
@@ -38,7 +51,7 @@ ModelJudgement judge_model(const FitResult& fitted, double level) {
         contradicted ? ModelVerdict::does_not_fit : ModelVerdict::fits_within_law_error;
   } else if (judged.p_value && *judged.p_value < least_p) {
     judged.verdict = ModelVerdict::does_not_fit;
-  } else if (stated) {
+  } else if (stated && tests_the_curve(exact)) {
     judged.verdict = judged.moved ? ModelVerdict::fits_with_moved_constants : ModelVerdict::fits;
   }
   return judged;

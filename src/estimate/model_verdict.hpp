@@ -32,6 +32,10 @@ struct ModelJudgement {
   std::optional<std::size_t> moved;      ///< the constant farthest from its stated value
 };
 
+/// Do the points test how e depends on V and d: are there more pairs of velocity and size than free
+/// parameters? If not, they only test their own scatter.
+bool tests_the_curve(const FitResult& fitted);
+
 /// The verdict on a fit.
 ///
 /// If an error of the laws is seen (`LawErrorEstimate::seen`), the model fits within it unless the

@@ -51,6 +51,10 @@ struct NoiseSpec {
   double diameter_relative_sd = 0.0;  ///< for points without one; 0: none
 };
 
+/// A standard deviation from n impacts has a relative error of 1 / sqrt(2 (n - 1)), which is about
+/// a fifth for this number.
+inline constexpr int few_impacts = 15;
+
 /// What the fit file and the datasets state about the noise.
 struct StatedNoise {
   NoiseSpec spec;
@@ -61,7 +65,9 @@ struct StatedNoise {
   /// 1e-6 [1]; 0: not rounded. It is the lower limit of an estimated sd, and adds to a stated one
   /// that is smaller.
   double rounding_sd = 0.0;
-  int sd_rounded = 0;                   ///< points to whose stated sd it was added
+  int sd_rounded = 0;     ///< points to whose stated sd it was added
+  int sd_of_few = 0;      ///< points with a stated sd that average several impacts, but few
+  bool pools_sd = false;  ///< pool these sds if they agree (`pool_deviations`)
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
   /// Is the error that the points of one setting share estimated from them? By default if a dataset
   /// names its settings and some have several points.
@@ -90,6 +96,8 @@ struct Noise {
   /// False: the noise is not stated and cannot be estimated, because the points do not scatter
   /// about the fit; there are then no standard errors and no tests.
   bool known = true;
+  /// Impacts minus points of the stated sds that `scale` pools; 0: they are used as stated.
+  int pooled_dof = 0;
   /// Weight of the deviations of uncertain constants relative to the residuals of the points:
   /// noise_scale of the fit, so that they keep their own errors if those of the points are widened.
   double constants_weight = 1.0;

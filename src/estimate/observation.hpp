@@ -20,6 +20,7 @@ struct PointConditions {
 struct SharedNumbers {
   std::size_t setting = 0;         ///< setting of the apparatus
   std::size_t batch = 0;           ///< spheres of one series
+  std::size_t size = 0;            ///< spheres of one dataset and diameter
   std::size_t launch = no_launch;  ///< successive bounces of one launch share instants
   std::size_t bounce = 0;          ///< number of the bounce within the launch
 
@@ -33,6 +34,7 @@ struct InputErrors {
   double setting_velocity_sd = 0.0;  ///< of the error of V that its setting shares [m/s]
   double diameter_sd = 0.0;          ///< of d, independent from point to point [m]
   double series_diameter_sd = 0.0;   ///< of the error of d that its series shares [m]
+  double batch_diameter_sd = 0.0;    ///< of the error of d that the points of its size share [m]
 };
 
 /// The measured values of one point.

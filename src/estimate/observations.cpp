@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -125,6 +126,21 @@ void complete_sd(std::vector<Observation>& points) {
   }
 }
 
+/// The number of points whose stated sd may have been computed from few impacts: not if all points
+/// state the same number, for their mean or for an impact, as no samples do.
+int count_sd_of_few(const std::vector<Observation>& points) {
+  int few = 0;
+  std::set<double> of_means, of_impacts;
+  for (const Observation& point : points) {
+    if (point.censored || !(point.sd > 0.0)) continue;
+    of_means.insert(point.sd);
+    of_impacts.insert(static_cast<float>(point.event_sd(point.sd)));
+    if (point.rebounds() > 1 && point.rebounds() < few_impacts) ++few;
+  }
+  const bool alike = points.size() > 1 && (of_means.size() == 1 || of_impacts.size() == 1);
+  return alike ? 0 : few;
+}
+
 /// Numbers the series of all datasets: the spheres of one may share an error of their size.
 void number_batches(std::vector<Observation>& points) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers;
@@ -194,7 +210,7 @@ bool Observations::share_errors() const {
 }
 
 bool Observations::weights_depend_on_fit() const {
-  return !noise.sd_stated || !sources.empty() ||
+  return !noise.sd_stated || noise.pools_sd || !sources.empty() ||
          std::any_of(points.begin(), points.end(), [](const Observation& point) {
            return point.captured > 0 || point.counts_only();
          });
@@ -257,6 +273,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   }
   const bool several = number_settings(datasets, data);
   number_batches(data.points);
+  find_batches(data.points);
   const bool velocity_shared = setting_velocity_error().acts(data);
   data.noise.setting_sd_estimated =
       several && !spec.setting_sd && !spec.student && (spec.every_setting || !velocity_shared);
@@ -272,6 +289,8 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
       spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
   if (data.noise.sd_stated) {
     data.noise.sd_missing = stated > 0 ? missing : 0;
+    data.noise.sd_of_few = count_sd_of_few(data.points);
+    data.noise.pools_sd = data.noise.sd_of_few > 0 && missing == 0 && !spec.variance;
     if (!spec.student) number_bounces(datasets, data);
     complete_sd(data.points);
     data.noise.sd_rounded = add_rounding(data.noise.rounding_sd, data.points);

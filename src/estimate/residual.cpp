@@ -274,6 +274,26 @@ double event_deviance(const Observation& point, const PointWeights& weights, dou
   return event_deviance(point, weights, m, false).value;
 }
 
+CountMoments count_moments(const Observation& point, const PointWeights& weights, double m) {
+  const double z = (m + weights.shift) / capture_spread(point, weights).scale;
+  const NormalTails tails = normal_tails(z, true);
+  const auto n = static_cast<double>(point.events);
+  double mean = 0.0;
+  double square = 0.0;
+  for (int captured = 0; captured <= point.events; ++captured) {
+    const double k = captured;
+    const double ln_likelihood = k * tails.log_above + (n - k) * tails.log_below;
+    const double probability = std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) -
+                                        std::lgamma(n - k + 1.0) + ln_likelihood);
+    const double of_peak =
+        (k > 0.0 ? k * std::log(k / n) : 0.0) + (k < n ? (n - k) * std::log((n - k) / n) : 0.0);
+    const double deviance = 2.0 * (of_peak - ln_likelihood);
+    mean += probability * deviance;
+    square += probability * deviance * deviance;
+  }
+  return {mean, square - mean * mean};
+}
+
 void locate_peak(const Observation& point, PointWeights& weights) {
   if (!weights.peaks(point)) return;
   // D decreases where all impacts would be captured and increases far above the measured mean.

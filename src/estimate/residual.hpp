@@ -67,6 +67,15 @@ void locate_peak(const Observation& point, PointWeights& weights);
 double event_deviance(const Observation& point, const PointWeights& weights,
                       double restitution_squared);
 
+/// Mean and variance of r^2 of a point that only counts captures, over the binomial distribution of
+/// its count at this prediction. With few impacts they differ much from the 1 and 2 of chi-squared.
+struct CountMoments {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+CountMoments count_moments(const Observation& point, const PointWeights& weights,
+                           double restitution_squared);
+
 /// Standard deviation of the mean e of the survivors of a point with scatter [1]: the stated or
 /// estimated one, but at least the one that the scatter alone causes (a deviation that was computed
 /// from two or three survivors is unreliable). For a single survivor the sd is the reading error,

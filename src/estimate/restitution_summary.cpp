@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "core/numerics.hpp"
 #include "core/statistics.hpp"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double tail = 0.5 * (1.0 - summary_level);
 constexpr double lack_of_fit_level = 0.05;
+constexpr double size_factor = 1.2;  // diameters within it are one size
 
 /// One point that rebounded.
 struct Reading {
@@ -26,6 +29,22 @@ struct Reading {
   std::size_t series = 0;  ///< index among all series of all datasets
   std::size_t place = 0;   ///< index of its setting among all settings
 };
+
+bool rebounded(const ImpactPoint& point) {
+  return !point.all_captured() && point.restitution > 0.0;
+}
+
+/// The median of the stated errors of e; nullopt if none is stated.
+std::optional<double> usual_error(const std::vector<Dataset>& datasets) {
+  std::vector<double> stated;
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& point : dataset.points) {
+      if (rebounded(point) && point.restitution_sd) stated.push_back(*point.restitution_sd);
+    }
+  }
+  if (stated.empty()) return std::nullopt;
+  return median(std::move(stated));
+}
 
 /// A series at one diameter.
 struct Group {
@@ -39,7 +58,7 @@ std::vector<Group> groups_of(const std::vector<Dataset>& datasets) {
   std::map<std::tuple<std::size_t, std::size_t, double>, Group> groups;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const ImpactPoint& point : datasets[d].points) {
-      if (point.all_captured() || !(point.restitution > 0.0)) continue;
+      if (!rebounded(point)) continue;
       Group& group = groups[{d, point.series, point.diameter}];
       group.dataset = d;
       group.series = point.series;
@@ -53,7 +72,9 @@ std::vector<Group> groups_of(const std::vector<Dataset>& datasets) {
   return found;
 }
 
-RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*>& points) {
+/// @param usual error of a point that states none
+RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*>& points,
+                        std::optional<double> usual) {
   RestitutionMean found;
   found.dataset = group.dataset;
   found.series = group.series;
@@ -61,11 +82,9 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   std::vector<double> e;
   double stated = 0.0;                   // sum of variances
   std::map<std::string, double> shared;  // by setting: sum of the shared errors of e
-  bool all_stated = true;
   for (const ImpactPoint* point : points) {
     e.push_back(point->restitution);
-    all_stated = all_stated && point->restitution_sd.has_value();
-    stated += std::pow(point->restitution_sd.value_or(0.0), 2);
+    stated += std::pow(point->restitution_sd.value_or(usual.value_or(0.0)), 2);
     shared[point->setting] +=
         point->restitution * point->setting_velocity_sd.value_or(0.0) / point->incident_velocity;
   }
@@ -75,7 +94,7 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   double of_settings = 0.0;
   for (const auto& [setting, error] : shared) of_settings += error * error;
   const double normal = gsl_cdf_ugaussian_Qinv(tail);
-  double half = all_stated ? normal * std::sqrt(stated + of_settings) / n : 0.0;
+  double half = usual ? normal * std::sqrt(stated + of_settings) / n : 0.0;
   const double scatter = standard_deviation(e);
   if (scatter > least_noise) {
     half = std::max(half, std::hypot(gsl_cdf_tdist_Qinv(tail, n - 1.0) * scatter / std::sqrt(n),
@@ -90,23 +109,68 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   return found;
 }
 
-void add_means(const Group& group, std::vector<RestitutionMean>& means) {
+double mean_velocity(const std::vector<const ImpactPoint*>& points) {
+  double sum = 0.0;
+  for (const ImpactPoint* point : points) sum += point->incident_velocity;
+  return sum / static_cast<double>(points.size());
+}
+
+void add_means(const Group& group, std::optional<double> usual,
+               std::vector<RestitutionMean>& means) {
   std::vector<const ImpactPoint*> all;
   bool repeated = false;
   for (const auto& [key, points] : group.settings) {
     all.insert(all.end(), points.begin(), points.end());
     repeated = repeated || points.size() > 1;
   }
-  means.push_back(mean_of(group, all));
+  means.push_back(mean_of(group, all, usual));
   if (!repeated || group.settings.size() < 2) return;
   for (const auto& [key, points] : group.settings) {
-    RestitutionMean of_setting = mean_of(group, points);
+    RestitutionMean of_setting = mean_of(group, points, usual);
     of_setting.setting = std::get<0>(key);
-    double sum = 0.0;
-    for (const ImpactPoint* point : points) sum += point->incident_velocity;
-    of_setting.velocity = sum / static_cast<double>(points.size());
+    of_setting.velocity = mean_velocity(points);
     means.push_back(std::move(of_setting));
   }
+}
+
+RestitutionRange::End end_of(const std::vector<const ImpactPoint*>& points) {
+  RestitutionRange::End end{mean_velocity(points)};
+  double variance = 0.0;
+  bool stated = true;
+  for (const ImpactPoint* point : points) {
+    end.value += point->restitution;
+    variance += std::pow(point->restitution_sd.value_or(0.0), 2);
+    stated = stated && point->restitution_sd.has_value();
+  }
+  const auto n = static_cast<double>(points.size());
+  end.value /= n;
+  end.error = stated ? std::sqrt(variance) / n : 0.0;
+  return end;
+}
+
+std::vector<RestitutionRange> ranges_of(const std::vector<Group>& groups) {
+  std::map<std::pair<std::size_t, double>, RestitutionRange> sizes;
+  for (const Group& group : groups) {
+    RestitutionRange& range = sizes[{group.dataset, group.diameter}];
+    range.dataset = group.dataset;
+    range.diameter = group.diameter;
+    for (const auto& [key, points] : group.settings) {
+      const RestitutionRange::End end = end_of(points);
+      const bool first = range.settings++ == 0;
+      if (first || end.velocity < range.slowest.velocity) range.slowest = end;
+      if (first || end.velocity > range.fastest.velocity) range.fastest = end;
+      if (first || end.value > range.largest.value) range.largest = end;
+    }
+  }
+  std::vector<RestitutionRange> found;
+  for (const auto& [key, range] : sizes) found.push_back(range);
+  return found;
+}
+
+/// Are they different series of one size?
+bool comparable(const Group& a, const Group& b) {
+  const bool other = a.dataset != b.dataset || a.series != b.series;
+  return other && std::max(a.diameter, b.diameter) < size_factor * std::min(a.diameter, b.diameter);
 }
 
 /// e = a_series + b log10 V, and c (log10 V)^2 in degree 2, by weighted least squares.
@@ -138,7 +202,8 @@ class Line {
     }
     sloped_ = spread > 1e-9;
     if (!sloped_) X.conservativeResize(Eigen::NoChange, s);
-    dof_ = static_cast<int>(n - X.cols());
+    columns_ = X.cols();
+    dof_ = static_cast<int>(n - columns_);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
     solvable_ = dof_ >= 0 && qr.rank() == X.cols();
     if (!solvable_) return;
@@ -155,7 +220,7 @@ class Line {
   int dof() const { return dof_; }
   double square() const { return rest_.squaredNorm(); }
   double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
-  Eigen::Index columns() const { return inverse_.cols(); }
+  Eigen::Index columns() const { return columns_; }
   /// Is an error known, stated or from the scatter?
   bool has_errors() const { return solvable_ && (stated_ || scatters_); }
   std::string missing() const {
@@ -187,6 +252,7 @@ class Line {
 
  private:
   bool stated_ = false, sloped_ = false, solvable_ = false, scatters_ = false;
+  Eigen::Index columns_ = 0;
   int dof_ = 0;
   double variance_ = 0.0;
   Eigen::VectorXd coefficients_, rest_;
@@ -237,27 +303,41 @@ bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
 
 }  // namespace
 
-RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
+bool RestitutionRange::peaks() const {
+  return std::ranges::all_of(std::array{slowest, fastest}, [&](const End& end) {
+    const bool known = end.error > 0.0 && largest.error > 0.0;
+    return known && largest.value - end.value > 2.0 * std::hypot(end.error, largest.error);
+  });
+}
+
+RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, bool adhesion) {
   gsl_errors_are_values();
   RestitutionSummary summary;
   std::vector<Reading> readings;
   std::vector<std::size_t> place_in_means;  // [series] index into summary.means
   std::size_t place = 0;
-  for (const Group& group : groups_of(datasets)) {
+  const std::vector<Group> groups = groups_of(datasets);
+  const std::optional<double> usual = usual_error(datasets);
+  for (const Group& group : groups) {
     place_in_means.push_back(summary.means.size());
     for (const auto& [key, points] : group.settings) {
       for (const ImpactPoint* point : points) {
-        readings.push_back({point->restitution, point->restitution_sd.value_or(0.0),
+        readings.push_back({point->restitution, point->restitution_sd.value_or(usual.value_or(0.0)),
                             point->incident_velocity, place_in_means.size() - 1, place});
+        if (usual && !point->restitution_sd) ++summary.without_error;
       }
       ++place;
     }
-    add_means(group, summary.means);
+    add_means(group, usual, summary.means);
   }
-  const std::size_t series = place_in_means.size();
+  summary.ranges = ranges_of(groups);
+  summary.rebounds = readings.size();
+  const std::size_t series = groups.size();
   summary.several_series = series > 1;
-  if (readings.empty()) {
-    summary.velocity.why = summary.series.why = "no sphere rebounded";
+  if (readings.empty() || adhesion) {
+    summary.velocity.why = summary.series.why =
+        readings.empty() ? "no sphere rebounded"
+                         : "with adhesion e rises steeply from capture and then falls";
     return summary;
   }
   const auto [slow, fast] = std::minmax_element(
@@ -292,26 +372,32 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
   } else {
     summary.velocity.why = series > 1 ? "one velocity in each series" : "one velocity";
   }
-  if (series < 2) {
-    summary.series.why = "one series";
+  // One difference per series, from the first one of its size: these are independent.
+  std::vector<Eigen::VectorXd> differences;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(line.columns());
+  for (std::size_t b = 0; b < series; ++b) {
+    bool first = true;
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!comparable(groups[a], groups[b])) continue;
+      Eigen::VectorXd difference = Eigen::VectorXd::Zero(line.columns());
+      difference(static_cast<Eigen::Index>(a)) = 1.0;
+      difference(static_cast<Eigen::Index>(b)) = -1.0;
+      if (std::exchange(first, false)) differences.push_back(difference);
+      if (!line.has_errors()) continue;
+      const double value = line.value(difference);
+      if (std::abs(value) < line.value(largest)) continue;
+      largest = value < 0.0 ? Eigen::VectorXd(-difference) : difference;
+      summary.most_different = {place_in_means[value < 0.0 ? b : a],
+                                place_in_means[value < 0.0 ? a : b]};
+    }
+  }
+  if (differences.empty()) {
+    summary.series.why = series < 2 ? "one series" : "no two series have one size";
     return summary;
   }
-  Eigen::MatrixXd contrasts = Eigen::MatrixXd::Zero(s + (line.sloped() ? 1 : 0), s - 1);
-  contrasts.row(0).setOnes();
-  for (Eigen::Index k = 1; k < s; ++k) contrasts(k, k - 1) = -1.0;
-  Eigen::VectorXd largest = contrasts.col(0);
-  if (line.has_errors()) {
-    for (Eigen::Index a = 0; a < s; ++a) {
-      for (Eigen::Index b = 0; b < s; ++b) {
-        Eigen::VectorXd other = Eigen::VectorXd::Zero(contrasts.rows());
-        other(a) = 1.0;
-        other(b) -= 1.0;
-        if (line.value(other) < line.value(largest)) continue;
-        largest = other;
-        summary.most_different = {place_in_means[static_cast<std::size_t>(a)],
-                                  place_in_means[static_cast<std::size_t>(b)]};
-      }
-    }
+  Eigen::MatrixXd contrasts(line.columns(), static_cast<Eigen::Index>(differences.size()));
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    contrasts.col(static_cast<Eigen::Index>(k)) = differences[k];
   }
   assess(largest, contrasts, summary.series);
   return summary;

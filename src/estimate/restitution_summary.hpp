@@ -26,6 +26,22 @@ struct RestitutionMean {
   std::string why = {};
 };
 
+/// The rebounds of one size: mean e at the slowest setting, at the fastest, and where it is
+/// largest.
+struct RestitutionRange {
+  struct End {
+    double velocity = 0.0, value = 0.0;  ///< mean V [m/s] and mean e [1] of a setting
+    double error = 0.0;                  ///< of the mean, from the stated errors; 0: none
+  };
+  std::size_t dataset = 0;
+  double diameter = 0.0;  ///< [m]
+  End slowest, largest, fastest;
+  std::size_t settings = 0;
+
+  /// Is e larger between the ends than at both, by more than two standard errors?
+  bool peaks() const;
+};
+
 /// An effect that was tested against 0.
 struct TestedEffect {
   std::optional<double> value;
@@ -39,25 +55,32 @@ struct TestedEffect {
 /// - A mean is unweighted. Its interval is the wider of two: Student's t with the scatter of the
 ///   points, and the normal one with their stated errors. A stated error s of V that a setting
 ///   shares contributes e s / V once per setting.
+/// - A point without a stated error counts with the median of the others.
 /// - `velocity` is b of e = a_series + b log10 V, by least squares weighted with the stated errors
 ///   [1/decade]; its p-value is the larger of those from stated errors and from the scatter. If the
 ///   means of the settings scatter more about the line than their points explain (F-test at 5 %),
-///   each mean counts as one reading.
+///   each mean counts as one reading. A series with several sizes has an a for each.
 /// - `bend` is the p-value of b = c = 0 in e = a_series + b log10 V + c (log10 V)^2, by the same
 ///   tests: near capture e rises and then falls, which a slope cannot show.
-/// - `series` is the largest difference between two series at equal velocity, and the p-value is
-///   that of all differences together (analysis of covariance).
+/// - `series` is the largest difference between two series of one size at equal velocity, and the
+///   p-value is that of all such differences together (analysis of covariance).
+/// - With adhesion, e rises steeply from capture and then falls, so there are only `ranges`.
 struct RestitutionSummary {
-  std::vector<RestitutionMean> means;  ///< every series, each followed by its settings
+  std::vector<RestitutionMean> means;    ///< every series, each followed by its settings
+  std::vector<RestitutionRange> ranges;  ///< every size of every dataset
   TestedEffect velocity;
   TestedEffect series;
   std::optional<double> bend;             ///< nullopt: too few readings, or no errors
   std::array<double, 2> velocities = {};  ///< smallest and largest V of a rebound [m/s]
   std::array<double, 2> values = {};      ///< smallest and largest e of a rebound
   std::array<std::size_t, 2> most_different = {0, 0};  ///< indices into `means`
+  std::size_t rebounds = 0;                            ///< points with a rebound
+  std::size_t without_error = 0;  ///< those of them that state no error, if others state one
   bool several_series = false;
 };
 
-RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets);
+/// @param adhesion does the model have adhesion?
+RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets,
+                                         bool adhesion = false);
 
 }  // namespace recoil

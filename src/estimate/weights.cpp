@@ -9,6 +9,7 @@
 #include "core/numerics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/pooled_deviations.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/setting_error.hpp"
@@ -21,8 +22,12 @@ constexpr double near_reach = 0.7;     // largest step in ln omega: a factor of 
 constexpr double least_spread = 2e-3;
 constexpr double largest_spread = 0.6;
 // If e^2 exceeds its scatter by this factor, all spheres survive: sqrt(e^2) is their mean to a
-// relative 1 / (8 * 30^2) = 1.4e-4.
+// relative 1 / (8 * 30^2) = 1.4e-4. A point whose scatter counts keeps it up to a slightly larger
+// factor: otherwise a point at the limit would change its weight in every round, without end. It is
+// larger by more than these rounds change the spread, and no more, as the answer must not depend on
+// the start.
 constexpr double far_from_capture = 30.0;
+constexpr double far_again = 1.1 * far_from_capture;
 // Initial sd of e^2 from impact to impact if only counts are known: d e^2 / d ln V is about 2 at
 // capture, and capture velocities typically scatter by a tenth.
 constexpr double first_scatter = 0.2;
@@ -41,6 +46,7 @@ class WeightUpdate {
   /// @param inputs false: only the scatter from impact to impact
   WeightUpdate(const Observations& data, Weights before, bool inputs)
       : data_(data), weights_(std::move(before)), inputs_(inputs) {
+    for (const PointWeights& own : weights_.points) scattered_.push_back(own.scatter > 0.0);
     const std::vector<bool> mixed = among_captures(data.points);
     mixed_ = std::find(mixed.begin(), mixed.end(), true) != mixed.end();
     double& spread = weights_.noise.event_spread;
@@ -58,7 +64,7 @@ class WeightUpdate {
       const Observation& p = data_.points[i];
       const double first_order =
           weights_.noise.event_spread * p.velocity * std::abs(points.velocity_slope(i));
-      scatters_[i] = p.captured > 0 ||
+      scatters_[i] = p.captured > 0 || scattered_[i] ||
                      !(points.at(i).restitution_squared > 2.0 * far_from_capture * first_order);
     }
     const auto beside = [&](const Observation& p, double h, bool in_velocity) {
@@ -93,6 +99,7 @@ class WeightUpdate {
       weights_.predicted = at;
       weights_.effects.assign(data_.sources.size(), std::vector<double>(at.size(), 0.0));
     }
+    if (inputs_) pool_noise(at);
     std::vector<Local> locals;
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (inputs_) set_errors(i, at[i], local);
@@ -121,7 +128,7 @@ class WeightUpdate {
       const double h = std::sqrt(3.0) * weights_.noise.event_spread;
       PointWeights& own = changed.points[i];
       if (!(own.scatter > 0.0)) continue;
-      set_scatter(data_.points[i], own,
+      set_scatter(i, own,
                   {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
                   changed.noise.event_spread);
       locate_peak(data_.points[i], own);
@@ -140,15 +147,28 @@ class WeightUpdate {
     }
   }
 
+  void pool_noise(const std::vector<double>& at) {
+    if (!data_.noise.pools_sd) return;
+    Noise& noise = weights_.noise;
+    const auto pooled = pool_deviations(data_, weights_, at)
+                            .value_or(PooledNoise{VarianceFunction::stated, 0.0, 0});
+    noise.variance = pooled.variance;
+    noise.scale = pooled.scale;
+    noise.pooled_dof = pooled.dof;
+  }
+
   /// Sets the estimated sd and the effective variance of point i with predicted e^2 `m`; `local`
   /// reads the next derivatives.
   template <class NextLocal>
   void set_errors(std::size_t i, double m, const NextLocal& local) {
     const Observation& point = data_.points[i];
     PointWeights& own = weights_.points[i];
-    if (!data_.noise.sd_stated) {
+    const bool pooled = weights_.noise.pooled_dof > 0 && pools_deviation(point);
+    if (!data_.noise.sd_stated || pooled) {
       own.sd = std::max(data_.noise.rounding_sd,
                         weights_.noise.estimated_sd(m, own.proximity, point.averaged()));
+    } else {
+      own.sd = point.sd;
     }
     double variance = 0.0;
     own.input_bias = 0.0;
@@ -159,7 +179,8 @@ class WeightUpdate {
       const Local at = local(m, error_step(relative));
       const double effect = source.effect(point, at, weights_.noise);
       weights_.effects[k][i] = effect;
-      if (source.shared != SharedBy::none) continue;
+      // Without e there is no residual that an error could share.
+      if (source.shared != SharedBy::none && !point.censored) continue;
       variance += effect * effect;
       own.input_bias += 0.5 * at.bend * relative * relative;
     }
@@ -180,14 +201,14 @@ class WeightUpdate {
     }
   }
 
-  void set_scatter(const Observation& point, PointWeights& own, const Local& at,
-                   double spread) const {
+  void set_scatter(std::size_t i, PointWeights& own, const Local& at, double spread) const {
+    const Observation& point = data_.points[i];
     const double square = spread * spread;
     own.shift = 0.5 * square * at.bend;
     own.scatter =
         std::sqrt(square * at.slope * at.slope + 0.5 * square * square * at.bend * at.bend);
     const double u = (at.value + own.shift) / own.scatter;
-    if (!(u < far_from_capture) && point.captured == 0) {
+    if (!(u < (scattered_[i] ? far_again : far_from_capture)) && point.captured == 0) {
       own.scatter = 0.0;
       own.shift = 0.0;
       return;
@@ -205,7 +226,7 @@ class WeightUpdate {
     for (std::size_t i = 0; i < locals.size(); ++i) {
       const Observation& point = data_.points[i];
       PointWeights& own = weights_.points[i];
-      set_scatter(point, own, locals[i], spread);
+      set_scatter(i, own, locals[i], spread);
       if (own.scatter > 0.0) {
         sum += event_deviance(point, own, locals[i].value);
         if (!point.censored) sum += 2.0 * std::log(own.mean_sd / own.sd);
@@ -223,7 +244,7 @@ class WeightUpdate {
     double& spread = weights_.noise.event_spread;
     spread = std::exp(lowest(locals));
     for (std::size_t i = 0; i < locals.size(); ++i) {
-      set_scatter(data_.points[i], weights_.points[i], locals[i], spread);
+      set_scatter(i, weights_.points[i], locals[i], spread);
       locate_peak(data_.points[i], weights_.points[i]);
     }
   }
@@ -280,7 +301,8 @@ class WeightUpdate {
   const Observations& data_;
   Weights weights_;
   bool inputs_;
-  bool mixed_ = false;  ///< in some range of velocities spheres both rebound and stick
+  bool mixed_ = false;           ///< in some range of velocities spheres both rebound and stick
+  std::vector<bool> scattered_;  ///< points whose scatter counted before
   /// Points that may be close enough to capture for the scatter to matter.
   std::vector<bool> scatters_;
 };
@@ -368,7 +390,7 @@ Weights first_weights(const Observations& data, Noise noise) {
 std::optional<Weights> weights_at(const ImpactModel& model, const Observations& data,
                                   Weights before, std::span<const double> theta,
                                   PointPredictor& points) {
-  if (!data.noise.sd_stated) set_proximities(model, data, theta, before);
+  if (!data.noise.sd_stated || data.noise.pools_sd) set_proximities(model, data, theta, before);
   WeightUpdate update(data, std::move(before), true);
   const auto values = evaluate_model(model, theta, points, update);
   if (!values) return std::nullopt;

@@ -24,9 +24,10 @@ struct DeviancePeak {
 /// The weights of one point.
 struct PointWeights {
   double sd = 0.0;  ///< standard deviation of the mean e: stated, or estimated [1]
-  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated [1].
+  /// Closeness to capture, (V* / V)^2, at most 1; only if the noise is estimated or pooled [1].
   double proximity = 0.0;
-  double input_sd = 0.0;    ///< sd of e^2 from the errors that no other point shares [1]
+  double input_sd =
+      0.0;  ///< sd of e^2 from the errors that no other point shares; without e, all [1]
   double input_bias = 0.0;  ///< shift of e^2 by its curvature over these errors [1]
   double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not used
   double shift = 0.0;       ///< mean e^2 of the impacts minus e^2 of the mean impact [1]

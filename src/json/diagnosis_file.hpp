@@ -195,18 +195,22 @@ struct DiagnosisFile {
     (std::string, fit, "name of the fit file without ending"),
     (std::vector<Data>, datasets, "each dataset"),
     (std::vector<RestitutionMeanEntry>, restitution_summary, about_restitution_summary),
+    (std::vector<RestitutionRangeEntry>, restitution_range, about_restitution_range),
     (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
     (SeriesDifferEntry, series_differ, about_series_differ),
-    (Verdict, verdict, "the answer"),
-    (std::string, headline, "the answer in one line"),
+    (OrNull<FitFile::ModelVerdictFound>, model_verdict, "whether the model describes the points: the same as "
+     "in fit.json"),
+    (Verdict, verdict, "what the diagnosis found: `adequate` (no structure in the residuals, or none "
+     "that needs a cause), `cause_named`, `not_separable` or `unexplained`"),
+    (std::string, headline, "the verdict on the model and the cause, in one line"),
     (std::string, text, "the answer in one paragraph"),
     (Misfit, misfit, "what the base model leaves"),
     (std::vector<Outlying>, outlying_points, "points that were set aside"),
     (OrNull<AnswerForAll>, with_outlying_points, "the answer with these points; null if there are "
      "none"),
-    (double, law_error, "allowed relative error of the laws", "1"),
-    (OrNull<Exact>, if_exact, "for an adequate model: what would be said if laws and losses had no "
-     "error; null if `law_error` is 0"),
+    (OrNull<double>, law_error, "allowed relative error of the laws of mechanisms; null: averaged "
+     "over", "1"),
+    (OrNull<Exact>, if_exact, "for an adequate model: the structure that exact laws would leave"),
     (Strings, named, "ids of the named mechanisms; two if both act at once"),
     (Strings, rivals, "ids that the data cannot distinguish from the named one; for an adequate "
      "model `materials_within_errors`, if exact materials would leave structure"),

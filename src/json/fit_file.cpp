@@ -52,14 +52,20 @@ void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const 
   }
 }
 
+/// The values of an impact to simulate: those with exact laws, where the fit was averaged.
 std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
   std::map<std::string, FittedValue> values;
+  const auto take_exact = [&](const std::string& name, const FitFile::LawsExact& exact) {
+    if (exact.value) values[name] = {*exact.value, exact.std_error};
+  };
   for (const auto& [name, parameter] : fit.parameters) {
     const auto& value = parameter.value.value;
     if (value) values[name] = {*value, parameter.std_error.value};
+    if (parameter.laws_exact) take_exact(name, *parameter.laws_exact);
   }
   for (const auto& [name, constant] : fit.constants) {
     if (constant.value) values[name] = {*constant.value, constant.std_error};
+    if (constant.laws_exact) take_exact(name, *constant.laws_exact);
   }
   return values;
 }

@@ -43,10 +43,12 @@ inline constexpr std::string_view about_recoil_version = "version of the program
 inline constexpr std::string_view about_restitution_summary =
     "mean e of every series and diameter; then, if settings have several points, of every setting";
 inline constexpr std::string_view about_velocity_dependence =
-    "change of e per decade of V, the same in all series, by weighted least squares; null if only "
-    "one velocity or no error is known";
+    "without adhesion: change of e per decade of V, the same in all series, by weighted least "
+    "squares; null if only one velocity or no error is known";
 inline constexpr std::string_view about_series_differ =
-    "test whether the series differ at equal V (analysis of covariance)";
+    "without adhesion: test whether series of one size differ at equal V (analysis of covariance)";
+inline constexpr std::string_view about_restitution_range =
+    "every size of every dataset: e at the slowest and at the fastest setting with a rebound";
 
 // One member per line.
 // clang-format off
@@ -97,7 +99,20 @@ struct RestitutionMeanEntry { RECOIL_RESULT(
 struct VelocityDependenceEntry { RECOIL_RESULT(
     (OrReason<double>, slope, "slope", "1/decade"),
     (OrNull<Ends>, interval, "95 % interval of the slope", "1/decade"),
-    (OrNull<double>, p_value, "p-value of no slope", "1")) };
+    (OrNull<double>, p_value, "p-value of no slope", "1"),
+    (std::size_t, without_error, "points that state no error while others do; each counts with the "
+     "median of the others")) };
+
+/// e at the ends of the velocities of one size.
+struct RestitutionRangeEntry {
+  struct End { RECOIL_RESULT(
+      (double, incident_velocity, "mean V of the setting", "m/s"),
+      (double, restitution, "mean e of its rebounds", "1")) };
+  RECOIL_RESULT(
+    (std::string, dataset, "dataset"),
+    (double, diameter_um, "diameter", "um"),
+    (End, slowest, "the slowest setting"),
+    (End, fastest, "the fastest setting")) };
 
 /// The test for differences between series, and the largest difference.
 struct SeriesDifferEntry {
@@ -107,6 +122,14 @@ struct SeriesDifferEntry {
     (OrNull<Pair>, most_different, "the two series that differ most"),
     (OrNull<double>, difference, "difference of their e", "1"),
     (OrNull<Ends>, interval, "95 % interval of this difference", "1")) };
+
+/// How wrong the laws are, if the fit was averaged over their error.
+struct LawErrorFound { RECOIL_RESULT(
+    (bool, seen, "whether the points show an error: it makes them at least 20 times as probable"),
+    (double, probability_of_exact_laws, "posterior probability of exact laws", "1"),
+    (double, median, "median of the error if the laws are not exact, relative to the loss", "1"),
+    (double, lower, "lower end of its interval", "1"),
+    (double, upper, "upper end of its interval", "1")) };
 
 /// A law of loss of the dry contact, compared with the others.
 struct LossLawEntry { RECOIL_RESULT(
@@ -209,6 +232,11 @@ struct FitFile {
       (OrNull<double>, std_error, "standard error", "its unit"),
       (ExactIntervals, intervals, "intervals")) };
 
+  /// What fits best with exact laws: an impact that is simulated has no error of the laws.
+  struct LawsExact { RECOIL_RESULT(
+      (OrNull<double>, value, "estimate", "its unit"),
+      (OrNull<double>, std_error, "standard error", "its unit")) };
+
   struct Parameter { RECOIL_RESULT(
       (OrReason<double>, value, "estimate, or the fixed value", "its unit"),
       (std::string, unit, "unit of the parameter"),
@@ -228,7 +256,9 @@ struct FitFile {
        "propagation"),
       (OrAbsent<OrNull<double>>, budget_sd_without_first_constant, "the error that would remain if "
        "the constant with the largest share were exact", "its unit"),
-      (OrAbsent<MaterialsExact>, materials_exact, "the fit with exact constants")) };
+      (OrAbsent<MaterialsExact>, materials_exact, "the fit with exact constants"),
+      (OrAbsent<LawsExact>, laws_exact, "the fit with exact laws; simulate, plan and export take "
+       "it")) };
 
   /// A material constant with a stated error.
   struct Constant { RECOIL_RESULT(
@@ -242,7 +272,9 @@ struct FitFile {
       (std::string, distribution, "distribution of the stated error", "",
        R"({"enum": ["normal", "lognormal"]})"),
       (OrNull<double>, moved_sd, "fitted minus stated value, in standard deviations", "1"),
-      (Strings, datasets, "datasets that have this constant")) };
+      (Strings, datasets, "datasets that have this constant"),
+      (OrAbsent<LawsExact>, laws_exact, "the fit with exact laws; simulate, plan and export take "
+       "it")) };
 
   using Matrix = Named<Named<OrNull<double>>>;
 
@@ -283,14 +315,6 @@ struct FitFile {
        R"({"enum": ["minimum", "valley", "flat"]})"),
       (Strategy, strategy, "the minimiser that found the answer: Ceres' trust region, "
        "Levenberg-Marquardt within bounds, or Gauss-Newton")) };
-
-  /// How wrong the laws are, if the fit was averaged over their error.
-  struct LawErrorFound { RECOIL_RESULT(
-      (bool, seen, "whether the points show an error: exact laws have a probability of at most 5 %"),
-      (double, probability_of_exact_laws, "posterior probability of exact laws", "1"),
-      (double, median, "median of the error if the laws are not exact, relative to the loss", "1"),
-      (double, lower, "lower end of its interval", "1"),
-      (double, upper, "upper end of its interval", "1")) };
 
   /// Whether the model describes the points.
   struct ModelVerdictFound { RECOIL_RESULT(
@@ -355,9 +379,11 @@ struct FitFile {
       (std::vector<MorePoints>, more_points, "the best places for more points")) };
 
   struct Identifiable { RECOIL_RESULT(
-      (OrNull<IdentifiabilityVerdict>, verdict, "whether the points determine the parameters"),
+      (OrNull<IdentifiabilityVerdict>, verdict, "whether the parameters are well determined: all, "
+       "some or none"),
       (std::string, text, "the verdict in words"),
-      (Named<bool>, parameters, "whether the points determine this parameter"),
+      (Named<bool>, parameters, "whether this parameter is well determined: the model fits, the "
+       "interval excludes both bounds, and its error is at most a tenth of the value"),
       (Information, information, "what the points determine")) };
 
   struct Suspect { RECOIL_RESULT(
@@ -446,12 +472,14 @@ struct FitFile {
   /// One method of estimating the three parameters of the paper's model.
   struct CalibrationRow { RECOIL_RESULT(
       (std::string, dataset, "dataset"),
-      (CalibrationKind, id, "two points, all points with the same f0, or all points with f0 fitted"),
+      (CalibrationKind, id, "two points, all points with the same f0, all points with f0 fitted, or "
+       "the fit itself: the others take laws and constants as exact"),
+      (bool, headline, "whether `parameters` are those of this row"),
       (OrReason<double>, f0, "f0 at the reference diameter", "N/m"),
       (OrReason<double>, C_H, "Hertz damping C_H", "1"),
       (OrReason<double>, C_A, "adhesion damping C_A", "1"),
       (OrReason<double>, C_H_standard_error, "standard error of C_H, with the constants, and an f0 "
-       "that is not fitted, as exact", "1"),
+       "that is not fitted, as exact; of the fit itself with their errors", "1"),
       (OrReason<double>, C_A_standard_error, "the same of C_A", "1"),
       (OrReason<double>, rmse, "root mean square of e - e_model at all points", "1"),
       (OrReason<double>, held_out_rmse, "the same at held-out diameters", "1")) };
@@ -511,6 +539,7 @@ struct FitFile {
     (DatasetEntry, dataset, "the dataset; several are joined, with the weakest provenance of them"),
     (std::vector<DatasetEntry>, datasets, "each dataset"),
     (std::vector<RestitutionMeanEntry>, restitution_summary, about_restitution_summary),
+    (std::vector<RestitutionRangeEntry>, restitution_range, about_restitution_range),
     (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
     (SeriesDifferEntry, series_differ, about_series_differ),
     (std::vector<LossLawEntry>, loss_laws, "without adhesion, and if the fit file names no loss: "
@@ -531,10 +560,11 @@ struct FitFile {
     (std::vector<ValidityEntry>, validity, "limits of validity of the model, at the worst point of "
      "each dataset"),
     (Bootstrap, bootstrap, "the bootstrap"),
-    (OrAbsent<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
-     "with these points, noise and captures; absent if it was not counted"),
+    (OrReason<OwnDesign>, own_design, "coverage in data sets that are simulated at the estimate "
+     "with these points, noise and captures"),
     (OrNull<Posterior>, posterior, "null without `posterior = true`"),
-    (std::vector<CalibrationRow>, comparison, "two points against all points: three rows per dataset"),
+    (std::vector<CalibrationRow>, comparison, "two points against all points: three rows per "
+     "dataset, and one for the fit itself if it is none of them"),
     (OrReason<TwoPoint>, two_point, "the two-point calibration of the first dataset"),
     (Full, full, "the same comparison for the full fit, first dataset"),
     (Named<TwoPoint>, two_point_by_dataset, "the same, by dataset"),

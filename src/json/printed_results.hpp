@@ -219,7 +219,8 @@ struct ComparisonFile {
       (OrNull<double>, aicc, "Akaike's criterion; null if no standard deviations are stated", "1"),
       (OrNull<double>, aicc_above_best, "AICc minus the least AICc", "1"),
       (OrNull<double>, rmse, "root mean square of e - e_model", "1"),
-      (OrNull<double>, held_out_rmse, "the same at held-out diameters", "1")) };
+      (OrNull<double>, held_out_rmse, "the same at held-out diameters", "1"),
+      (OrNull<LawErrorFound>, law_error, "how wrong the laws are; null: taken as exact")) };
 
   struct Value { RECOIL_RESULT(
       (OrNull<double>, value, "estimate", "its unit"),

@@ -12,6 +12,7 @@
 #include "estimate/likelihood.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"
+#include "report/words_verdict.hpp"
 
 namespace recoil {
 namespace {
@@ -69,6 +70,9 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
                    {"AICc above the best"},
                    {say("rms of {e}")},
                    {"held out"}};
+  const bool laws =
+      std::ranges::any_of(fits, [](const ComparedFit& fit) { return fit.laws.has_value(); });
+  if (laws) table.columns.push_back({"error of the laws", "of the loss", true});
   for (const ComparedFit& fit : fits) {
     const auto aicc = fit.aicc();
     table.rows.push_back(
@@ -76,6 +80,9 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
          whole(fit.free_parameters), Number{fit.chi2},
          aicc && best ? Cell(Number{*aicc - *best, fixed(1)}) : Cell("not defined"),
          Number{fit.rmse}, cell_if(number_if(fit.held_out_rmse, {}))});
+    if (laws) {
+      table.rows.back().push_back(fit.laws ? law_error_range(*fit.laws) : "taken as exact");
+    }
   }
   return table;
 }
@@ -147,6 +154,7 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   if (f.data.noise.sd_stated) fit.minus_two_log_likelihood = minus_two_log_likelihood(f);
   fit.rmse = f.rmse;
   fit.held_out_rmse = law.held_out_rmse;
+  fit.laws = judge_model(f).laws;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     if (slot.is_constant() && !slot.moves()) continue;  // fixed at its stated value under every law
@@ -191,7 +199,8 @@ ComparisonFile::Fit fit_of(const ComparedFit& fit, std::optional<double> best) {
           .aicc = aicc,
           .aicc_above_best = aicc && best ? OrNull<double>(*aicc - *best) : std::nullopt,
           .rmse = fit.rmse,
-          .held_out_rmse = fit.held_out_rmse};
+          .held_out_rmse = fit.held_out_rmse,
+          .law_error = law_error_found(fit.laws)};
 }
 
 }  // namespace
@@ -227,6 +236,9 @@ ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
   fit.minus_two_log_likelihood = read.goodness.minus_two_log_likelihood.value;
   fit.rmse = read.goodness.rmse.value.value_or(NAN);
   fit.held_out_rmse = read.full.held_out_rmse.value;
+  if (const auto& laws = read.model_verdict.law_error) {
+    fit.laws = {laws->probability_of_exact_laws, laws->median, laws->lower, laws->upper};
+  }
   for (const auto& [name, parameter] : read.parameters) {
     fit.quantities.push_back(
         {.name = name,

@@ -36,6 +36,7 @@ struct ComparedFit {
   int free_parameters = 0;
   double rmse = 0.0;  ///< rms residual of e [1]
   std::optional<double> held_out_rmse;
+  std::optional<LawErrorEstimate> laws;      ///< how wrong the laws are; nullopt: taken as exact
   std::vector<ComparedQuantity> quantities;  ///< parameters, then capture velocities
 
   RECOIL_FIELDS(adhesion, mechanisms, data, points, free_parameters, chi2, minus_two_log_likelihood,

@@ -163,10 +163,7 @@ Table both_models_table(const Diagnosis& d) {
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
   table.compact = true;
   table.caption = "Parameters under both models";
-  if (d.spec.law_error > 0.0) {
-    table.caption += fmt::format(", without the law error of {} that the diagnosis allows",
-                                 percent(d.spec.law_error));
-  }
+  if (d.spec.law_error != 0.0) table.caption += ", with exact laws";
   table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
   const ImpactModel& model = extension.fit->model;
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
@@ -225,10 +222,9 @@ Table next_experiment_table(const Diagnosis& d) {
 
 Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
-  const RestitutionSummary summary = summarise_restitution(d.datasets);
-  answer.blocks = {Paragraph{strong(headline(d) + "."), true},
+  answer.blocks = {Paragraph{headline(d), true},
                    Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
-                   Paragraph{join(restitution_sentences(summary, d.datasets), " ")}};
+                   Paragraph{join(restitution_sentences(d.datasets, d.base.model), " ")}};
   append(answer.blocks, data_banners(d.datasets));
   return answer;
 }
@@ -264,8 +260,9 @@ Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
   std::vector<std::string> sentences = answer_sentences(d);
   if (sentences.size() > summary_sentences) sentences.resize(summary_sentences);
   Section section{"diagnosis", "Diagnosis"};
-  section.blocks = {Paragraph{strong(headline(d) + ".") +
-                              Sentence(fmt::format(" {}", fmt::join(sentences, " ")))}};
+  const std::string cause = cause_headline(d);
+  section.blocks = {Paragraph{(cause.empty() ? Sentence() : strong(cause + ".") + " ") +
+                              Sentence(fmt::format("{}", fmt::join(sentences, " ")))}};
   if (!address.empty())
     section.blocks.emplace_back(Paragraph{link("The whole diagnosis", address)});
   return section;

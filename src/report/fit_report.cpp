@@ -127,12 +127,17 @@ Sentence own_design_words(const Analysis& a, double below) {
              percent(a.uncertainty.options.level), join(parts, ", "));
 }
 
-/// e(V) for all sizes: the panel if there is one, otherwise one picture with all sizes.
+/// e(V) for all sizes, the panel if there is one, otherwise one picture with all sizes; and what
+/// the laws get wrong.
 Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
-  if (panels.size() == 1) return {panels};
-  Sentence caption = say("Points, fit and its {} band.", percent(a.uncertainty.options.level));
-  if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
-  return {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
+  Figures shown = {panels};
+  if (panels.size() != 1) {
+    Sentence caption = say("Points, fit and its {} band.", percent(a.uncertainty.options.level));
+    if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
+    shown = {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
+  }
+  for (Figure& figure : law_error_figures(a)) shown.figures.push_back(std::move(figure));
+  return shown;
 }
 
 /// All warnings, the most important first, without the noise warning, which the verdict includes.
@@ -155,12 +160,11 @@ Blocks first_warning(const std::vector<Sentence>& warnings) {
 }
 
 /// One picture for each diameter, and the residuals of each dataset.
-Section sizes_section(const Analysis& a, std::vector<Figure> panels,
-                      const RestitutionSummary& summary) {
+Section sizes_section(const Analysis& a, std::vector<Figure> panels) {
   if (panels.size() == 1) panels.clear();  // the answer shows this panel
   for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
   return detail_section("sizes", "Sizes and residuals",
-                        {Figures{std::move(panels)}, restitution_table(summary, a.datasets)});
+                        {Figures{std::move(panels)}, restitution_table(a.datasets)});
 }
 
 Section certainty_section(const Analysis& a) {
@@ -263,12 +267,11 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     return {answer, warnings_section(a, warnings), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted, diagnosis),
+  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted),
                                  capture_words(a), loss_words(a), odd_point_words(a)};
   std::erase(leads, Sentence());
-  const RestitutionSummary summary = summarise_restitution(a.datasets);
   answer.blocks = {Paragraph{join(leads, " "), true},
-                   Paragraph{join(restitution_sentences(summary, a.datasets), " ")}};
+                   Paragraph{join(restitution_sentences(a.datasets, a.fitted.model), " ")}};
   append(answer.blocks, data_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back(shown_section("picture", "", {answer_figures(a, panels)}));
@@ -280,7 +283,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   }
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
   sections.push_back(shown_section("warning", "", first_warning(warnings)));
-  sections.push_back(sizes_section(a, std::move(panels), summary));
+  sections.push_back(sizes_section(a, std::move(panels)));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));
   if (!warnings.empty()) warnings.erase(warnings.begin());  // the answer shows it

@@ -33,6 +33,11 @@ std::string_view explore_script();
 /// Weighted residuals against V, one picture for each dataset.
 std::vector<Figure> residual_figures(const Analysis& analysis);
 
+/// What the laws get wrong, one picture for each dataset: the error g of the laws against V for
+/// every size, with its band, and the loss of every point against that of exact laws with the
+/// fitted constants, (e_exact^2 - e^2) / (1 - e_exact^2). Empty if no error of the laws is seen.
+std::vector<Figure> law_error_figures(const Analysis& analysis);
+
 /// V* against diameter, compared with older capture models, one picture for each dataset.
 std::vector<Figure> capture_figures(const Analysis& analysis);
 

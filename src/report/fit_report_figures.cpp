@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <span>
 
 #include "core/json.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
-#include "estimate/model.hpp"
+#include "estimate/model_verdict.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/prediction_report.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -284,6 +289,99 @@ Sentence residual_caption(const Analysis& analysis, const std::vector<ResidualRo
       outside, rows.size(), 0.0455 * static_cast<double>(rows.size()));
 }
 
+// ---- error of the laws -------------------------------------------------------------------------
+
+/// Adds g along the velocities of the points of a panel, with its band [%].
+void add_law_error(const Analysis& analysis, const Panel& panel, std::string_view colour,
+                   plot::Plot& shown) {
+  constexpr int steps = 60;
+  const FitResult& f = analysis.fitted;
+  const std::size_t first = f.model.first_law_slot(), slots = f.model.slots.size();
+  const auto [slow, fast] = std::ranges::minmax(
+      panel.points, {}, [&](std::size_t i) { return f.data.points[i].velocity; });
+  PointConditions at = f.data.points[slow].conditions();
+  at.diameter = panel.diameter;
+  const double ratio = f.data.points[fast].velocity / at.velocity;
+  plot::Line line{.x = {}, .y = {}, .stroke = {colour, 1.8}};
+  plot::Band band{.x = {}, .lower = {}, .upper = {}, .fill = {std::string(colour), 0.14}};
+  std::vector<double> gradient(slots, 0.0);
+  const double slowest = at.velocity;
+  for (int k = 0; k <= steps; ++k) {
+    at.velocity = slowest * std::pow(ratio, double(k) / steps);
+    f.model.law_error->functions(at, std::span(gradient).subspan(first));
+    double g = 0.0, variance = 0.0;
+    for (std::size_t i = first; i < slots; ++i) {
+      g += gradient[i] * f.theta[i];
+      for (std::size_t j = first; j < slots; ++j) {
+        variance += gradient[i] * f.covariance[i * slots + j] * gradient[j];
+      }
+    }
+    const double half = student_quantile(0.5 + 0.5 * analysis.uncertainty.options.level,
+                                         degrees_of_freedom(f, gradient)) *
+                        std::sqrt(variance);
+    line.x.push_back(at.velocity);
+    line.y.push_back(100.0 * g);
+    band.lower.push_back(100.0 * (g - half));
+    band.upper.push_back(100.0 * (g + half));
+  }
+  band.x = line.x;
+  shown.layers.push_back(std::move(band));
+  shown.layers.push_back(std::move(line));
+}
+
+/// The loss of the points of a panel relative to that of exact laws at the fitted constants, with
+/// one standard deviation [%].
+plot::Points lost_points(const Analysis& analysis, const Panel& panel) {
+  const FitResult& f = analysis.fitted;
+  const ImpactModel exact = with_exact_laws(f.model);
+  const std::span constants = std::span(f.theta).first(exact.slots.size());
+  plot::Points points;
+  std::vector<double> sd;
+  for (const std::size_t i : panel.points) {
+    const Observation& point = f.data.points[i];
+    const PointWeights& own = f.weights.points[i];
+    if (point.censored || point.counts_only()) continue;
+    const double squared =
+        predict(exact, constants, {point.conditions()}, false).front().restitution_squared;
+    const double expected = expected_restitution(point, own, squared);
+    const double per_loss = 100.0 / (1.0 - squared);
+    points.x.push_back(point.velocity);
+    points.y.push_back(per_loss * (expected * expected - point.restitution * point.restitution));
+    sd.push_back(per_loss * std::hypot(2.0 * point.restitution * own.sd, own.input_sd));
+  }
+  return points.with_sd(sd);
+}
+
+plot::Plot law_error_plot(const Analysis& analysis, const std::vector<Panel>& panels) {
+  plot::Plot shown;
+  std::vector<double> velocities, errors = {0.0};
+  std::vector<plot::Layer> points;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    add_law_error(analysis, panels[k], plot::marker(k).colour, shown);
+    plot::Points own = lost_points(analysis, panels[k]);
+    own.marker = plot::marker(k);
+    own.size = 0.65;
+    own.name = diameter_label(panels[k].diameter);
+    velocities.insert(velocities.end(), own.x.begin(), own.x.end());
+    errors.insert(errors.end(), own.y.begin(), own.y.end());
+    points.emplace_back(std::move(own));
+  }
+  for (const plot::Layer& layer : shown.layers) {
+    const auto* const band = std::get_if<plot::Band>(&layer);
+    if (band == nullptr) continue;
+    errors.insert(errors.end(), band->lower.begin(), band->lower.end());
+    errors.insert(errors.end(), band->upper.begin(), band->upper.end());
+  }
+  shown.layers.push_back(
+      plot::Rule{.vertical = false, .at = 0.0, .stroke = {plot::ink, 1.2, plot::dashes}});
+  std::ranges::move(points, std::back_inserter(shown.layers));
+  shown.x = velocity_axis(plot::log_range_of(velocities, 0.05));
+  shown.y = {"loss beyond that of the laws", "%"};
+  shown.y.set_range(plot::range_of(errors, 0.06));
+  shown.key = plot::KeyPlace::above;
+  return shown;
+}
+
 // ---- capture models ----------------------------------------------------------------------------
 
 /// One stroke for each model. Colours and dashes differ.
@@ -452,6 +550,40 @@ std::vector<Figure> residual_figures(const Analysis& analysis) {
                    .height = 320,
                    .plots = {residual_plot(rows)}},
                   residual_caption(analysis, rows, k)));
+  }
+  return figures;
+}
+
+std::vector<Figure> law_error_figures(const Analysis& analysis) {
+  const FitResult& f = analysis.fitted;
+  const ModelJudgement judged = judge_model(f, analysis.uncertainty.options.level);
+  if (!judged.laws || !judged.laws->seen() || !f.model.law_error || f.covariance.empty()) return {};
+  std::vector<Figure> figures;
+  const std::vector<Panel> all = panels_of(analysis);
+  for (std::size_t d = 0; d < analysis.datasets.size(); ++d) {
+    std::vector<Panel> panels;
+    for (const Panel& panel : all) {
+      if (panel.dataset == d && !panel.points.empty()) panels.push_back(panel);
+    }
+    const std::size_t sizes = panels.size(), most = plot::markers.size();
+    for (std::size_t k = 0; sizes > most && k < most; ++k) {
+      panels[k] = panels[k * (sizes - 1) / (most - 1)];
+    }
+    panels.resize(std::min(sizes, most));
+    if (panels.empty()) continue;
+    Sentence caption =
+        say("What the laws get wrong, {}: the loss of energy of every point beyond that of exact "
+            "laws with the fitted constants, {+/-} 1 sd; lines: the error of the laws under its "
+            "likeliest form, with {} bands.",
+            short_name(analysis.datasets, d), percent(analysis.uncertainty.options.level));
+    if (sizes > most) caption += say(" {} of {} sizes.", most, sizes);
+    figures.push_back(
+        figure_of({.name = fmt::format("law-error-{}", d + 1),
+                   .title = "Error of the laws against velocity, " + analysis.datasets[d].id,
+                   .width = 560,
+                   .height = 380,
+                   .plots = {law_error_plot(analysis, panels)}},
+                  caption));
   }
   return figures;
 }

@@ -237,8 +237,9 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
     table.rows.push_back(
         {row.row == CalibrationKind::two_point
              ? say("two points of {}", diameter_sentence(comparison.result.diameter))
-         : row.row == CalibrationKind::full ? say("all points, same {f0}")
-                                            : say("all points, {f0} fitted"),
+         : row.row == CalibrationKind::full         ? say("all points, same {f0}")
+         : row.row == CalibrationKind::full_f0_free ? say("all points, {f0} fitted")
+                                                    : say("the fit above"),
          number_at(row.theta, f.model.slot_C_H[d], significant(3)),
          number_at(row.theta, f.model.slot_C_A[d], significant(3)),
          cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, significant(2))),

@@ -23,11 +23,10 @@ constexpr std::size_t most_sizes_listed = 4;
 constexpr int thumbnail_width = 420;   // [px]
 constexpr int thumbnail_height = 270;  // [px]
 
-/// The keys of diagnosis.json that a card shows.
+/// The key of diagnosis.json that a card shows.
 struct ShownDiagnosis {
-  Verdict verdict = Verdict::adequate;
   std::string headline;
-  RECOIL_FIELDS(verdict, headline)
+  RECOIL_FIELDS(headline)
 };
 
 /// Parses a fit.json or diagnosis.json.
@@ -48,10 +47,13 @@ Cell ends_cell(const std::optional<Ends>& ends) {
 }
 
 /// A sign for each verdict, so that its meaning does not depend on colour.
-const char* sign_of(Verdict verdict) {
-  using enum Verdict;
-  static constexpr Phrase<Verdict> phrases[] = {
-      {adequate, "✓"}, {cause_named, "◆"}, {not_separable, "?"}, {unexplained, "✗"}};
+const char* sign_of(ModelVerdict verdict) {
+  using enum ModelVerdict;
+  static constexpr Phrase<ModelVerdict> phrases[] = {{fits, "✓"},
+                                                     {fits_with_moved_constants, "✓"},
+                                                     {fits_within_law_error, "≈"},
+                                                     {does_not_fit, "✗"},
+                                                     {untested, "?"}};
   return phrase_for(phrases, verdict).words;
 }
 
@@ -107,15 +109,16 @@ void add_banners(const FitFile& fit, Blocks& blocks) {
   }
 }
 
-/// The verdict of the diagnosis with a link to its page; empty without a diagnosis.
-Blocks verdict_of(const IndexEntry& entry) {
-  if (entry.diagnosis_json.empty()) return {};
-  const auto diagnosis =
-      contents_of<ShownDiagnosis>(entry.page, entry.diagnosis_json, "diagnosis.json");
-  const std::string verdict = to_string(diagnosis.verdict);
-  return {Remark{verdict, sign_of(diagnosis.verdict),
-                 link(diagnosis.headline.empty() ? words_of(verdict) : diagnosis.headline,
-                      entry.diagnosis_page)}};
+/// The verdict on the model; with a diagnosis also the cause, and a link to its page.
+Blocks verdict_of(const IndexEntry& entry, const FitFile& fit) {
+  const ModelVerdict verdict = fit.model_verdict.verdict;
+  Sentence text = fit.model_verdict.text;
+  if (!entry.diagnosis_json.empty()) {
+    text = link(
+        contents_of<ShownDiagnosis>(entry.page, entry.diagnosis_json, "diagnosis.json").headline,
+        entry.diagnosis_page);
+  }
+  return {Remark{to_string(verdict), sign_of(verdict), text}};
 }
 
 Section card_of(const IndexEntry& entry, const FitFile& fit) {
@@ -126,7 +129,7 @@ Section card_of(const IndexEntry& entry, const FitFile& fit) {
                    provenances_of(fit.datasets)),
                {},
                entry.page};
-  append(card.blocks, verdict_of(entry));
+  append(card.blocks, verdict_of(entry, fit));
   if (!entry.picture.empty()) {
     Figure picture{"picture", "", {}, entry.picture};
     picture.csv = entry.picture_csv;

@@ -153,9 +153,10 @@ std::string diagnosis_json(const Diagnosis& d) {
   for (const Dataset& dataset : d.datasets) {
     out.datasets.push_back({dataset.id, dataset.provenance, dataset.points.size(), dataset.sha256});
   }
-  set_restitution(out, d.datasets);
+  set_restitution(out, d.datasets, d.base.model);
   out.verdict = d.verdict();
-  out.headline = headline(d);
+  out.headline = plain_text(headline(d));
+  if (d.fitted) out.model_verdict = model_verdict_of(*d.fitted);
   out.text = answer_words(d);
   out.misfit = misfit_of(d);
   for (const OutlyingPoint& point : d.outlying) {

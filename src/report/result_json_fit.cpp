@@ -8,6 +8,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/likelihood.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
@@ -169,6 +170,15 @@ void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& mode
   entry.budget_sd_without_first_constant.emplace(budget.sd_without_first_constant);
 }
 
+/// Sets `entry` for slot s if the fit was averaged over errors of the laws.
+void set_laws_exact(OrAbsent<FitFile::LawsExact>& entry, const FitResult& fitted, std::size_t s) {
+  const FitResult& exact = with_laws_exact(fitted);
+  if (&exact == &fitted || s >= exact.theta.size()) return;
+  if (std::ranges::find(exact.flat, s) != exact.flat.end()) return;
+  entry.emplace(FitFile::LawsExact{acting_value(exact.model, exact.theta, s),
+                                   only_if(exact.std_error[s] > 0.0, exact.std_error[s])});
+}
+
 FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
@@ -210,6 +220,7 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
         .intervals = {.wald = ends_of(exact->intervals[s][IntervalKind::wald]),
                       .profile = ends_of(exact->intervals[s][IntervalKind::profile])}});
   }
+  set_laws_exact(out.laws_exact, f, s);
   return out;
 }
 
@@ -230,6 +241,7 @@ Named<FitFile::Constant> constants_of(const Analysis& a) {
     out.distribution = is_positive(constant.constant) ? "lognormal" : "normal";
     out.moved_sd = a.fitted.constants_moved[k];
     for (const std::size_t d : constant.datasets) out.datasets.push_back(a.datasets[d].id);
+    set_laws_exact(out.laws_exact, a.fitted, j);
   }
   return all;
 }
@@ -320,16 +332,16 @@ FitFile::Goodness goodness_of(const FitResult& f) {
           .noise_text = noise_words(f)};
 }
 
+}  // namespace
+
 FitFile::ModelVerdictFound model_verdict_of(const FitResult& f) {
   const ModelJudgement judged = judge_model(f);
   FitFile::ModelVerdictFound out{judged.verdict, plain_text(verdict_sentence(f)), {}};
-  if (judged.laws) {
-    const LawErrorEstimate& laws = *judged.laws;
-    out.law_error =
-        FitFile::LawErrorFound{laws.seen(), laws.exact_weight, laws.median, laws.lower, laws.upper};
-  }
+  out.law_error = law_error_found(judged.laws);
   return out;
 }
+
+namespace {
 
 FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;
@@ -341,7 +353,7 @@ FitFile::Noise noise_of(const FitResult& f) {
   FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
-  out.scale = {only_if(!data.noise.sd_stated && noise.known, noise.scale),
+  out.scale = {only_if(noise.known && noise.variance != VarianceFunction::stated, noise.scale),
                noise.known ? "the standard deviations are stated" : noise_words(f)};
   if (noise.known) out.scale_text = scale_words(noise.variance, noise.scale);
   for (const Noise::Candidate& candidate : noise.candidates) {
@@ -353,7 +365,8 @@ FitFile::Noise noise_of(const FitResult& f) {
   out.margin = {noise.candidates.size() > 1 ? std::optional(choice_margin(noise)) : std::nullopt,
                 "nothing was chosen"};
   out.points_with_velocity_errors = count_with(&InputErrors::velocity_sd);
-  out.points_with_diameter_errors = count_with(&InputErrors::diameter_sd);
+  out.points_with_diameter_errors =
+      count_with(&InputErrors::diameter_sd) + count_with(&InputErrors::batch_diameter_sd);
   out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
                       "no point has both rebounds and captures"};
   out.setting_sd = {only_if(data.share(SharedBy::setting), noise.setting_sd),
@@ -536,6 +549,7 @@ FitFile::CalibrationRow compared_entry(const Analysis& a, const TwoPointComparis
   FitFile::CalibrationRow out;
   out.dataset = a.datasets[d].id;
   out.id = row.row;
+  out.headline = row.headline;
   const std::optional<double> f0 =
       row.theta.empty() ? std::nullopt : std::optional(adhesion_force_under(model, row.theta, d));
   out.f0 = {f0, row.failure};
@@ -626,6 +640,11 @@ std::optional<Ends> ends_of(const Interval& interval) {
   return Ends{*interval.lower, *interval.upper};
 }
 
+OrNull<LawErrorFound> law_error_found(const std::optional<LawErrorEstimate>& laws) {
+  if (!laws) return std::nullopt;
+  return LawErrorFound{laws->seen(), laws->exact_weight, laws->median, laws->lower, laws->upper};
+}
+
 DatasetEntry dataset_entry(const Dataset& dataset) {
   return {.id = dataset.id,
           .title = dataset.title,
@@ -649,8 +668,9 @@ ValidityEntry validity_entry(const Validity& check) {
   return out;
 }
 
-RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
-  const RestitutionSummary summary = summarise_restitution(datasets);
+RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets,
+                                       const ImpactModel& model) {
+  const RestitutionSummary summary = summarise_restitution(datasets, adheres_anywhere(model));
   const auto series_of = [&](const RestitutionMean& mean) {
     return datasets[mean.dataset].series[mean.series];
   };
@@ -666,8 +686,14 @@ RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
     entry.interval = {mean.interval, mean.why};
     entry.points = mean.points;
   }
+  for (const RestitutionRange& range : summary.ranges) {
+    out.ranges.push_back({datasets[range.dataset].id,
+                          in_um(range.diameter),
+                          {range.slowest.velocity, range.slowest.value},
+                          {range.fastest.velocity, range.fastest.value}});
+  }
   const TestedEffect& slope = summary.velocity;
-  out.velocity = {{slope.value, slope.why}, slope.interval, slope.p_value};
+  out.velocity = {{slope.value, slope.why}, slope.interval, slope.p_value, summary.without_error};
   const TestedEffect& differ = summary.series;
   out.series = {{differ.p_value, differ.why}, {}, differ.value, differ.interval};
   if (differ.value) {
@@ -685,7 +711,7 @@ std::string fit_json(const Analysis& a) {
   out.provenance_sentence = all_provenance_sentences(a.datasets);
   out.dataset = joint_entry(a.datasets);
   for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
-  set_restitution(out, a.datasets);
+  set_restitution(out, a.datasets, f.model);
   for (const LossFit& law : a.losses) out.loss_laws.push_back({law.id, law.delta_aicc});
   out.options = options_of(a);
   out.model = model_of(a);
@@ -714,13 +740,15 @@ std::string fit_json(const Analysis& a) {
     entry.dataset = a.datasets[check.dataset].id;
   }
   out.bootstrap = bootstrap_of(a);
-  if (!a.own_design.empty()) {
-    FitFile::OwnDesign own;
-    for (const OwnCoverage& row : a.own_design) {
-      own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
-    }
-    out.own_design = std::move(own);
+  FitFile::OwnDesign own;
+  for (const OwnCoverage& row : a.own_design) {
+    own.coverage.push_back({row.quantity, row.method, row.share(), row.datasets});
   }
+  out.own_design = {own.coverage.empty() ? std::nullopt : std::optional(std::move(own)),
+                    noise_doubts(f).empty()
+                        ? "it was not counted"
+                        : "the noise is in doubt (see warnings), and simulated data do not have "
+                          "this doubt"};
   out.posterior = posterior_of(a);
   set_two_point(out, a);
   for (const StartSummary& start : f.starts) {

@@ -10,6 +10,7 @@
 #include "document/sentence.hpp"
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
+#include "report/words_verdict.hpp"
 
 namespace recoil {
 
@@ -82,9 +83,9 @@ std::string cause_words(const std::vector<std::string>& ids, const char* between
 
 namespace {
 
-std::string headline_of(const NotSeparable& d) {
+std::string cause_of(const NotSeparable& d, const std::string& lead) {
   if (!d.shared_cause.empty()) {
-    return fmt::format("Cause of the misfit: {}, by one of several laws ({})", d.shared_cause,
+    return fmt::format("{}: {}, by one of several laws ({})", lead, d.shared_cause,
                        cause_words(d.rivals));
   }
   std::vector<std::string> doubtful = d.rivals;
@@ -92,45 +93,55 @@ std::string headline_of(const NotSeparable& d) {
     return std::ranges::find(d.common, id) != d.common.end();
   });
   if (!d.common.empty() && !doubtful.empty()) {
-    return fmt::format("Cause of the misfit: {}, together with {}", cause_words(d.common),
+    return fmt::format("{}: {}, together with {}", lead, cause_words(d.common),
                        cause_words(doubtful, " or "));
   }
   if (d.rivals.size() == 1) {
-    return fmt::format("The cause of the misfit may be {}, but these data cannot decide",
-                       cause_words(d.rivals));
+    return fmt::format("{} may be {}, but these data cannot decide", lead, cause_words(d.rivals));
   }
-  return "The model does not describe these points, for one of several possible causes: " +
-         cause_words(d.rivals);
+  return fmt::format("{}, one of several that these data cannot separate: {}", lead,
+                     cause_words(d.rivals, " or "));
+}
+
+/// Does the verdict leave a misfit to explain?
+bool is_rejected(const Diagnosis& d) {
+  if (!d.fitted) return true;
+  const ModelVerdict verdict = judge_model(*d.fitted).verdict;
+  return verdict == ModelVerdict::does_not_fit || verdict == ModelVerdict::fits_within_law_error;
 }
 
 }  // namespace
 
-std::string headline(const Diagnosis& d) {
+std::string cause_headline(const Diagnosis& d) {
+  const std::string lead =
+      is_rejected(d) ? "Cause of the misfit" : "Cause of structure in the residuals";
   switch (d.verdict()) {
     case Verdict::adequate:
-      if (!tests_the_curve(d)) return "These points cannot test the model";
-      return d.base.noise_verdict == NoiseVerdict::exceeded && d.spec.law_error > 0.0
-                 ? fmt::format(
-                       "The model describes these points if its laws are allowed an error of {}",
-                       percent(d.spec.law_error))
-                 : "The model describes these points";
+      return "";
     case Verdict::cause_named:
-      return "Cause of the misfit: " + cause_words(d.named());
+      return lead + ": " + cause_words(d.named());
     case Verdict::not_separable:
-      return headline_of(std::get<NotSeparable>(d.answer));
+      return cause_of(std::get<NotSeparable>(d.answer), lead);
     case Verdict::unexplained:
       if (const auto* shape = d.answer_if<Resembles>()) {
-        return fmt::format("The misfit has the shape of {}, which cannot be its cause",
+        return fmt::format("The residuals have the shape of {}, which cannot be the cause",
                            cause_words(shape->causes, " or "));
       }
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
-      return rival_errors(d).empty()
-                 ? "The model has a misfit that no cause in the catalogue explains"
-                 : "Either the errors are larger than stated, or the model has a misfit that no "
-                   "cause in the catalogue explains";
+      if (rival_errors(d).empty()) return "No cause in the catalogue explains the residuals";
+      return d.base.data.noise.sd_stated
+                 ? "Either the errors are larger than stated, or the cause is not in the catalogue"
+                 : "Either points share errors, or the cause is not in the catalogue";
   }
   return "";
+}
+
+Sentence headline(const Diagnosis& d) {
+  Sentence text = d.fitted ? verdict_sentence(*d.fitted) : Sentence();
+  const std::string cause = cause_headline(d);
+  if (!cause.empty()) text += say("{}{}.", text.empty() ? "" : " ", cause);
+  return text;
 }
 
 }  // namespace recoil

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis_result.hpp"
+#include "document/sentence.hpp"
 
 /// Text about a diagnosis.
 namespace recoil {
@@ -30,8 +31,11 @@ std::string cause_words(const std::vector<std::string>& ids, const char* between
 /// Warnings about the diagnosis: failed simulations, a failed fit of the extended model.
 std::vector<std::string> diagnosis_warnings(const Diagnosis& diagnosis);
 
-/// The answer in one line, without a full stop.
-std::string headline(const Diagnosis& diagnosis);
+/// The cause of what the model leaves, in one line without a full stop; empty if it leaves nothing.
+std::string cause_headline(const Diagnosis& diagnosis);
+
+/// The verdict on the model (`verdict_sentence`), then `cause_headline`.
+Sentence headline(const Diagnosis& diagnosis);
 
 /// The answer: what is wrong, its cause, and the gain of the extended model or the next step.
 std::vector<std::string> answer_sentences(const Diagnosis& diagnosis);

@@ -233,10 +233,12 @@ std::string misfit_words(const Diagnosis& d) {
     if (!tests_the_curve(d)) {
       return fmt::format("The points scatter about the curve no more than stated ({}).", p);
     }
-    return fmt::format(
-        "The residuals show no structure ({}: the share of data sets simulated with the model that "
-        "show as much).",
-        p);
+    if (d.structure.p_value > d.options.level) {
+      return fmt::format(
+          "The residuals show no structure ({}: the share of data sets simulated with the model "
+          "that show as much).",
+          p);
+    }
   }
   const std::string where = where_words(d);
   if (!where.empty()) return fmt::format("{} ({}).", where, p);
@@ -352,8 +354,8 @@ std::string materials_words(const Diagnosis& d, const Adequate& answer) {
                          d.base.model.slots[d.base.model.first_constant() + k].label(), by);
   }
   return fmt::format(
-      "It does so within the errors of the material constants{}{}; with exact constants structure "
-      "would remain (p = {:.2g}).",
+      "The material constants moved within their errors{}{}; with exact constants structure would "
+      "remain (p = {:.2g}).",
       moved, moved.empty() ? "" : " standard deviations", answer.materials->p_value_exact);
 }
 
@@ -361,6 +363,10 @@ std::string materials_words(const Diagnosis& d, const Adequate& answer) {
 std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
   if (!answer.if_exact || answer.if_exact->p_value > d.options.level) return "";
   const std::vector<std::string>& ids = answer.if_exact->listed;
+  if (d.structure.p_value <= d.options.level) {
+    return "A smooth error of the laws explains this as well as any cause in the catalogue" +
+           (ids.empty() ? "." : "; the closest: " + cause_words(ids, " or ") + ".");
+  }
   return fmt::format("If the laws were exact, structure would remain ({}){}.",
                      p_words(answer.if_exact->p_value, quick_samples),
                      ids.empty() ? ", unlike any cause in the catalogue"

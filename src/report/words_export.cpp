@@ -142,10 +142,7 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
   if (std::isfinite(source.rmse)) {
     wrap_into(lines, fmt::format("Its e differs from these points by {:.2g} (rms).", source.rmse));
   }
-  if (source.p_value) {
-    wrap_into(lines, fmt::format("The points reject this model (p = {:.2g}). {}", *source.p_value,
-                                 source.mean_restitution));
-  }
+  if (!source.misfit.empty()) wrap_into(lines, source.misfit);
   if (job.form != ExportForm::lookup) {
     wrap_into(lines, fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: "
                                  "{}, its damping acts in phase \"{}\".",

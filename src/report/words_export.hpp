@@ -26,9 +26,8 @@ struct ExportSource {
   std::string dataset;     ///< id
   Provenance provenance = Provenance::measured;
   std::vector<ExportedParameter> values;
-  double rmse = 0.0;              ///< rms residual of e [1]
-  std::optional<double> p_value;  ///< if the points reject the model
-  std::string mean_restitution;   ///< mean e of the points, as a sentence
+  double rmse = 0.0;   ///< rms residual of e [1]
+  std::string misfit;  ///< if the points reject exact laws: the verdict and what was measured
 };
 
 /// The heading of an exported file: fit, parameters, dataset, and the error of the export. Lines

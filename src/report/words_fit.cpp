@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "data/text.hpp"
 #include "estimate/input_errors.hpp"
+#include "estimate/noise_doubt.hpp"
 #include "estimate/reweighting.hpp"
 #include "estimate/setting_error.hpp"
 #include "impact/adhesion_law.hpp"
@@ -46,7 +46,7 @@ std::string unknown_noise_words(const FitResult& fitted) {
   return "unknown: " + unknown_noise_reason(fitted);
 }
 
-std::string verdict_words(const FitResult& fitted) {
+std::string scatter_words(const FitResult& fitted) {
   switch (fitted.noise_verdict) {
     case NoiseVerdict::unchecked:
       return fitted.weights.noise.known ? "not checked: there are no more points than parameters"
@@ -54,13 +54,12 @@ std::string verdict_words(const FitResult& fitted) {
     case NoiseVerdict::estimated:
       return variance_words(fitted);
     case NoiseVerdict::explained:
-      return "the stated standard deviations explain the scatter";
     case NoiseVerdict::doubtful:
-      return fmt::format("the stated standard deviations barely explain the scatter ({})",
-                         p_words(fitted.p_value));
+      return noise_name(fitted);
     case NoiseVerdict::exceeded:
-      return fmt::format("the stated standard deviations do not explain the scatter ({})",
-                         p_words(fitted.p_value));
+      return fitted.noise_scale > 1.0
+                 ? fmt::format("{:.3g} times {}", fitted.noise_scale, noise_name(fitted))
+                 : noise_name(fitted);
   }
   return "";
 }
@@ -107,6 +106,26 @@ std::string setting_words(const FitResult& fitted) {
                                 source);
 }
 
+/// The rows whose diameter has one error; as in "the stated error of the diameter is shared by the
+/// 20 points of 4.9 um".
+std::string batch_words(const FitResult& fitted) {
+  std::map<std::size_t, std::pair<double, int>> sizes;  // diameter, points
+  for (const Observation& point : fitted.data.points) {
+    if (!(point.batch_diameter_sd > 0.0)) continue;
+    auto& [diameter, points] = sizes[point.size];
+    diameter = point.diameter;
+    ++points;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [size, of] : sizes) {
+    texts.push_back(
+        fmt::format("the {} of {:.3g} um", counted(of.second, "point"), 1e6 * of.first));
+  }
+  if (texts.empty()) return "";
+  return fmt::format("; the stated error of the diameter is shared by {}",
+                     fmt::join(texts, " and by "));
+}
+
 // ---- warnings ----------------------------------------------------------------------------------
 
 /// Appends the sentences that the list does not contain yet.
@@ -116,87 +135,48 @@ void add_new(Sentences& list, const Sentences& more) {
   }
 }
 
-/// A warning if one noise scale is estimated for all datasets but their residuals differ: F test of
-/// the largest against the smallest mean square, with a Bonferroni correction for all pairs.
-Sentences unequal_noise_warnings(const FitResult& fitted) {
-  const std::size_t datasets = fitted.model.contacts.size();
-  if (fitted.data.noise.sd_stated || datasets < 2) return {};
-  struct Residuals {
-    double square = 0.0;
-    double count = 0.0;
-    double mean() const { return square / count; }
-  };
-  std::vector<Residuals> squares(datasets);
-  for (std::size_t i = 0; i < fitted.residuals.size(); ++i) {
-    const Observation& point = fitted.data.points[i];
-    if (point.censored) continue;
-    squares[point.dataset].square += fitted.residuals[i] * fitted.residuals[i];
-    squares[point.dataset].count += 1.0;
+Sentence doubt_words(const NoiseDoubt& doubt) {
+  const auto number = static_cast<int>(doubt.number);
+  switch (doubt.cause) {
+    case NoiseDoubt::Cause::sd_of_few:
+      return fmt::format(
+          "{} fewer than {} impacts: if their restitution_sd were computed from these alone, the "
+          "intervals are too narrow; pool the deviations of all points, or let the fit estimate "
+          "them ([noise] variance = \"constant\")",
+          counted(number, "point averages", "points average"), few_impacts);
+    case NoiseDoubt::Cause::unequal_scales:
+      return fmt::format(
+          "the residuals of one dataset are {:.1f} times those of another, while one scale of the "
+          "noise is estimated for all: the intervals may be too narrow; state restitution_sd",
+          doubt.number);
+    case NoiseDoubt::Cause::setting_velocity:
+      return "the points of every setting have one velocity: if they share an error of this "
+             "velocity, such as that of a drop height, and not of e, the intervals are too narrow "
+             "near capture: state setting_velocity_sd";
+    case NoiseDoubt::Cause::few_settings:
+      break;
   }
-  std::erase_if(squares, [](const Residuals& r) { return !(r.count > 2.0) || !(r.square > 0.0); });
-  if (squares.size() < 2) return {};
-  const auto [least, most] = std::ranges::minmax_element(
-      squares, [](const auto& a, const auto& b) { return a.mean() < b.mean(); });
-  constexpr double level = 0.01;
-  const double ratio = most->mean() / least->mean();
-  const double pairs = static_cast<double>(datasets * (datasets - 1));
-  if (!(gsl_cdf_fdist_Q(ratio, most->count, least->count) * pairs < level)) return {};
-  return {fmt::format(
-      "the residuals of one dataset are {:.1f} times those of another, while one scale of the "
-      "noise is estimated for all: the intervals may be too narrow; state restitution_sd",
-      std::sqrt(ratio))};
-}
-
-/// Warnings about errors shared by the points of a setting that the points cannot determine.
-Sentences setting_warnings(const FitResult& fitted) {
-  const Observations& data = fitted.data;
-  if (!data.noise.setting_sd_estimated) return {};
-  if (spare_settings(data, fitted.model.free_count()) > 0) {
-    // Without adhesion e hardly depends on V, so a shared error of V acts like one of e.
-    if (!adheres_anywhere(fitted.model)) return {};
-    std::map<std::size_t, double> velocity;  // by setting
-    for (const Observation& point : data.points) {
-      if (velocity.try_emplace(point.setting, point.velocity).first->second != point.velocity) {
-        return {};
-      }
-    }
-    return {
-        "the points of every setting have one velocity: if they share an error of this velocity, "
-        "such as that of a drop height, and not of e, the intervals are too narrow near capture: "
-        "state setting_velocity_sd"};
-  }
-  const int settings = count_settings(data).settings;
-  return {fmt::format(
+  return fmt::format(
       "the points of one setting may share an error, such as that of a drop height; {} cannot "
       "determine it, and the intervals do not include it: state setting_velocity_sd or setting_sd",
-      counted(settings, "setting"))};
+      counted(number, "setting"));
 }
 
-/// A standard deviation from n impacts has a relative error of 1 / sqrt(2 (n - 1)), which is about
-/// a fifth for this number.
-constexpr int few_impacts = 15;
-
 /// Warnings about missing, imprecise and ignored standard deviations.
-Sentences data_warnings(const Observations& data) {
-  if (data.noise.sd_stated && data.noise.sd_missing > 0) {
-    return {counted(data.noise.sd_missing, "point states", "points state") +
-            " no restitution_sd; single impacts are assumed to scatter there like the median of "
-            "the others"};
+Sentences noise_warnings(const FitResult& fitted) {
+  Sentences warnings;
+  const StatedNoise& stated = fitted.data.noise;
+  if (stated.sd_stated && stated.sd_missing > 0) {
+    warnings.emplace_back(counted(stated.sd_missing, "point states", "points state") +
+                          " no restitution_sd; single impacts are assumed to scatter there like "
+                          "the median of the others");
+  } else if (!stated.sd_stated && stated.sd_set_aside > 0) {
+    warnings.emplace_back(fmt::format(
+        "the restitution_sd of {} is ignored: the fit file requests an estimated variance",
+        counted(stated.sd_set_aside, "point")));
   }
-  const auto few = std::ranges::count_if(data.points, [](const auto& point) {
-    return point.rebounds() > 1 && point.rebounds() < few_impacts;
-  });
-  if (data.noise.sd_stated && few > 0) {
-    return {
-        fmt::format("{} fewer than {} impacts: if their restitution_sd were computed from these "
-                    "alone, the intervals are too narrow; pool the deviations of all points, or "
-                    "let the fit estimate them ([noise] variance = \"constant\")",
-                    counted(few, "point averages", "points average"), few_impacts)};
-  }
-  if (data.noise.sd_stated || data.noise.sd_set_aside == 0) return {};
-  return {fmt::format(
-      "the restitution_sd of {} is ignored: the fit file requests an estimated variance",
-      counted(data.noise.sd_set_aside, "point"))};
+  for (const NoiseDoubt& doubt : noise_doubts(fitted)) add_new(warnings, {doubt_words(doubt)});
+  return warnings;
 }
 
 /// Warnings about parameters that the fit does not determine.
@@ -334,14 +314,20 @@ Sentence loss_words(const Analysis& a) {
     text += fmt::format("; the points cannot distinguish it from {}", fmt::join(equals, ", "));
   }
   if (a.fitted.noise_verdict == NoiseVerdict::exceeded) {
-    text += "; no law fits the points, so quote the mean e";
+    text += "; as no law fits, quote the mean e";
   }
   return Sentence(text + ".");
 }
 
+std::string noise_name(const FitResult& fitted) {
+  const auto counts = [](const Observation& point) { return point.censored; };
+  return std::ranges::all_of(fitted.data.points, counts) ? "the noise of the counts"
+                                                         : "the stated noise";
+}
+
 std::string noise_words(const FitResult& fitted) {
   if (!fitted.usable) return "";
-  std::string text = verdict_words(fitted) + input_words(fitted);
+  std::string text = scatter_words(fitted) + input_words(fitted);
   if (const double spread = fitted.weights.noise.event_spread; spread > 0.0) {
     text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
                         100.0 * spread);
@@ -353,7 +339,11 @@ std::string noise_words(const FitResult& fitted) {
         stated.rounding_sd * std::sqrt(12.0), stated.rounding_sd,
         counted(stated.sd_rounded, "point"));
   }
-  text += setting_words(fitted);
+  if (const Noise& noise = fitted.weights.noise; noise.pooled_dof > 0) {
+    text += fmt::format("; the stated deviations of few impacts are pooled: {}",
+                        scale_words(noise.variance, noise.scale));
+  }
+  text += batch_words(fitted) + setting_words(fitted);
   if (const auto& student = fitted.data.noise.student) {
     text += fmt::format("; Student's t residuals with {:g} degrees of freedom", student->dof);
   }
@@ -403,19 +393,19 @@ Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
 
 Sentence noise_warning(const FitResult& fitted) {
   return fmt::format(
-      "the residuals are {:.3g} times larger than the stated noise ({}): errors and intervals are "
-      "widened by this factor, but no widening can correct for a wrong model",
-      fitted.noise_scale, p_words(fitted.p_value));
+      "the residuals are {:.3g} times larger than {} ({}): errors and intervals are widened by "
+      "this factor, but no widening can correct for a wrong model",
+      fitted.noise_scale, noise_name(fitted), p_words(fitted.p_value));
 }
 
 std::vector<Sentence> fit_warnings(const FitResult& fitted) {
-  Sentences warnings = data_warnings(fitted.data);
-  add_new(warnings, unequal_noise_warnings(fitted));
-  add_new(warnings, setting_warnings(fitted));
+  Sentences warnings = noise_warnings(fitted);
   if (fitted.usable) {
     add_new(warnings, undetermined_warnings(fitted));
     add_new(warnings, bound_warnings(fitted));
-    if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(noise_warning(fitted));
+    if (fitted.noise_scale > 1.0 && fitted.noise_verdict == NoiseVerdict::exceeded) {
+      warnings.push_back(noise_warning(fitted));
+    }
     add_new(warnings, start_warnings(fitted));
   }
   add_new(warnings, weight_warnings(fitted));

@@ -20,6 +20,9 @@ std::string unknown_noise_reason(const FitResult& fitted);
 /// no laws were compared.
 Sentence loss_words(const Analysis& analysis);
 
+/// What the residuals are compared with: "the stated noise"; that of the counts if no e is known.
+std::string noise_name(const FitResult& fitted);
+
 /// The noise model of the fit and the evidence for it.
 std::string noise_words(const FitResult& fitted);
 

@@ -104,37 +104,50 @@ std::string precision_words(double relative_sd) {
   return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
 }
 
-/// Why a parameter is poorly determined, as the predicate of a sentence.
-std::string hindrance_words(const ParameterIdentifiability& found, const Interval& interval) {
-  using enum Hindrance;
-  static constexpr Phrase<Hindrance> patterns[] = {
-      {no_interval, "has no interval: {why}"},
-      {reaches_upper_bound, "reaches its upper bound"},
-      {reaches_lower_bound, "reaches its lower bound"},
-      {rests_on_bound, "is at its bound"},
-      {consistent_with_zero, "is consistent with zero"},
-      {large_error, "is known only to {error:.0f} %"},
-      {uncertain_error,
-       "has an error of {error:.0f} %, or up to {largest:.0f} % because the noise is estimated"},
-      {undecided_noise, ""},  // parameter_sentences handles this and the next one
-      {wide_spread, ""}};
-  return fmt::format(fmt::runtime(phrase_for(patterns, *found.hindrance).words),
-                     fmt::arg("why", missing_words(interval)),
-                     fmt::arg("error", 100.0 * found.relative_error),
-                     fmt::arg("largest", 100.0 * found.largest_relative_error));
+/// What is known of a parameter that is not well determined, as the predicate of a sentence.
+Sentence hindrance_words(const ParameterIdentifiability& found, const Interval& interval,
+                         const ParameterSlot& slot) {
+  const auto end = [&](const std::optional<double>& value) {
+    return say("{}{}", number(value.value_or(NAN), 2), unit_after_number(slot.parameter->unit));
+  };
+  const std::string error = precision_words(found.relative_error);
+  switch (*found.hindrance) {
+    case Hindrance::no_interval:
+      return "has no interval: " + missing_words(interval);
+    case Hindrance::reaches_upper_bound:
+      return interval.lower.value_or(slot.lower) <= slot.lower
+                 ? "is not limited by the points"
+                 : say("is known only to be above {}", end(interval.lower));
+    case Hindrance::reaches_lower_bound:
+      return say("is known only to be below {}", end(interval.upper));
+    case Hindrance::rests_on_bound:
+      return say("is at its bound, and known only to be below {}", end(interval.upper));
+    case Hindrance::consistent_with_zero:
+      return say("is consistent with zero, and known only to be below {}", end(interval.upper));
+    case Hindrance::large_error:
+      return say("is known to {}", error);
+    case Hindrance::model_rejected:
+      return say("is known to {} if the model holds", error);
+    case Hindrance::uncertain_error:
+      return say("is known to {}, or only to {}, because the noise is estimated", error,
+                 precision_words(found.largest_relative_error));
+    case Hindrance::undecided_noise:  // parameter_sentences handles this and the next one
+    case Hindrance::wide_spread:
+      break;
+  }
+  return {};
 }
 
 Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& uncertainty) {
   const Identifiability& found = uncertainty.identifiability;
   Sentences sentences, not_trusted;
+  if (found.rejected) {
+    sentences.emplace_back("the errors hold only if the model does, and it does not fit");
+  }
   for (std::size_t j = 0; j < found.parameter.size(); ++j) {
     const ParameterIdentifiability& parameter = found.parameter[j];
     if (!fitted.model.slots[j].free) continue;
     const Sentence label = label_of(fitted.model, j);
-    if (parameter.upper_limit) {
-      sentences.push_back(
-          say("{} is small and consistent with zero: its interval is an upper limit", label));
-    }
     if (!parameter.hindrance) continue;
     if (parameter.hindrance == Hindrance::wide_spread) {
       not_trusted.push_back(label);
@@ -142,7 +155,8 @@ Sentences parameter_sentences(const FitResult& fitted, const UncertaintyResult& 
       sentences.push_back(undecided_words(label, parameter.noise_factor));
     } else {
       const Interval& interval = recommended_interval(uncertainty.intervals[j]);
-      sentences.push_back(say("{} {}", label, hindrance_words(parameter, interval)));
+      sentences.push_back(
+          say("{} {}", label, hindrance_words(parameter, interval, fitted.model.slots[j])));
     }
   }
   if (!not_trusted.empty()) {
@@ -253,9 +267,9 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           what, 100.0 * value);
     case Caution::model_rejected:
       return say(
-          "{} follows from a model that the data reject ({}); its interval does not include the "
-          "error of the model",
-          what, p_words(value));
+          "{} follows from a model that does not fit; its interval does not include the error of "
+          "the model",
+          what);
   }
   return {};
 }
@@ -268,7 +282,7 @@ std::string short_note(Caution caution) {
                                                 {undecided_noise, ""},
                                                 {wide_spread, ""},
                                                 {mixed_sizes, ""},
-                                                {model_rejected, "the data reject the model"}};
+                                                {model_rejected, "the model does not fit"}};
   return phrase_for(phrases, caution).words;
 }
 

@@ -6,24 +6,28 @@
 #include <cmath>
 
 #include "data/text.hpp"
+#include "estimate/restitution_summary.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_series = 4;  // listed in a sentence
+constexpr std::size_t most_listed = 4;  // series or sizes in a sentence
 constexpr double shown_level = 0.05;    // a smaller p-value is reported as a difference
 
-/// The name of a series, with its size if its name is not unique, and with its dataset if there are
-/// several.
+/// The name of a series, with its size if there are several sizes, and with its dataset if there
+/// are several.
 std::string series_words(const RestitutionMean& mean, const RestitutionSummary& summary,
                          const std::vector<Dataset>& datasets) {
   const Dataset& dataset = datasets[mean.dataset];
   std::string name = dataset.series[mean.series];
-  const auto same = std::ranges::count_if(summary.means, [&](const RestitutionMean& other) {
-    return !other.velocity && other.dataset == mean.dataset && other.series == mean.series;
-  });
-  if (same > 1) name += " " + diameter_words(mean.diameter);
+  const bool sizes = std::ranges::any_of(
+      summary.means, [&](const RestitutionMean& other) { return other.diameter != mean.diameter; });
+  if (sizes) {
+    // One series of all sizes has no need of its name.
+    name = dataset.series.size() > 1 ? name + " " + diameter_words(mean.diameter)
+                                     : diameter_words(mean.diameter);
+  }
   return datasets.size() > 1 ? fmt::format("{} of {}", name, dataset.id) : name;
 }
 
@@ -73,10 +77,47 @@ Sentence dependence_words(const RestitutionSummary& summary) {
   return steady ? range + say("; it {} {}.", goes, slope) : range + say(", {}.", no_slope);
 }
 
+/// "0.37 at 1.3 m/s"
+Sentence end_words(const RestitutionRange::End& end) {
+  return say("{:.2f} at {} m/s", end.value, number(end.velocity, 2));
+}
+
+/// "rises from 0.37 at 1.3 m/s to 0.87 at 10 m/s (2 um)"
+Sentence range_words(const RestitutionRange& range, const std::vector<Dataset>& datasets) {
+  Sentence size = diameter_sentence(range.diameter);
+  if (datasets.size() > 1) size += " on " + short_name(datasets, range.dataset);
+  if (range.settings < 2) return say("is {} ({})", end_words(range.slowest), size);
+  if (range.peaks()) {
+    return say("rises from {} to {} and falls to {} ({})", end_words(range.slowest),
+               end_words(range.largest), end_words(range.fastest), size);
+  }
+  const bool falls = range.fastest.value < range.slowest.value;
+  return say("{} from {} to {} ({})", falls ? "falls" : "rises", end_words(range.slowest),
+             end_words(range.fastest), size);
+}
+
+/// What was measured where e is no line: e at the ends of every size.
+Sentence ranges_words(std::vector<RestitutionRange> ranges, const std::vector<Dataset>& datasets) {
+  const bool followed =
+      std::ranges::any_of(ranges, [](const RestitutionRange& range) { return range.settings > 1; });
+  if (followed) std::erase_if(ranges, [](const RestitutionRange& one) { return one.settings < 2; });
+  std::ranges::stable_sort(ranges, {}, &RestitutionRange::diameter);
+  const std::size_t sizes = ranges.size();
+  if (sizes > most_listed) ranges = {ranges.front(), ranges.back()};
+  std::vector<Sentence> parts;
+  for (const RestitutionRange& range : ranges) parts.push_back(range_words(range, datasets));
+  return say("{e} {}{}.", join(parts, "; "),
+             sizes > most_listed ? fmt::format("; smallest and largest of {} sizes", sizes)
+                                 : std::string());
+}
+
 }  // namespace
 
-std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
-                                            const std::vector<Dataset>& datasets) {
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
+                                            const ImpactModel& model) {
+  const bool adhesion = adheres_anywhere(model);
+  const RestitutionSummary summary = summarise_restitution(datasets, adhesion);
+  if (adhesion && !summary.ranges.empty()) return {ranges_words(summary.ranges, datasets)};
   std::vector<Sentence> means;
   double least = INFINITY, most = 0.0;
   for (const RestitutionMean& mean : summary.means) {
@@ -93,11 +134,18 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
   const bool depends = summary.velocity.p_value.value_or(1.0) < shown_level ||
                        summary.bend.value_or(1.0) < shown_level;
   if (!depends || !spans_a_decade(summary)) {
-    sentences.push_back(means.size() > most_series ? say("Mean {e} of {} series: {:.3f} to {:.3f}.",
-                                                         means.size(), least, most)
-                                                   : say("Mean {e}: {}.", join(means, "; ")));
+    sentences.push_back(
+        means.size() > most_listed
+            ? say("Mean {e} of {} series or sizes: {:.3f} to {:.3f}.", means.size(), least, most)
+            : say("Mean {e}: {}.", join(means, "; ")));
   }
   sentences.push_back(dependence_words(summary));
+  if (summary.without_error > 0) {
+    sentences.push_back(say("{} of {} points {} no error and {} with the median of the others.",
+                            summary.without_error, summary.rebounds,
+                            summary.without_error == 1 ? "states" : "state",
+                            summary.without_error == 1 ? "counts" : "count"));
+  }
   const TestedEffect& differ = summary.series;
   if (differ.p_value) {
     const std::string p = p_words(*differ.p_value);
@@ -106,7 +154,7 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
     };
     if (*differ.p_value >= shown_level) {
       sentences.push_back(say("No difference between the series is detected ({}).", p));
-    } else if (means.size() > most_series) {
+    } else if (means.size() > most_listed) {
       sentences.push_back(say("The series differ in {e} ({}), by up to {:.2g}.", p, *differ.value));
     } else {
       sentences.push_back(say("The series differ in {e} ({}): {} and {} by {:.2g} {}.", p, name(0),
@@ -116,7 +164,8 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
   return sentences;
 }
 
-Table restitution_table(const RestitutionSummary& summary, const std::vector<Dataset>& datasets) {
+Table restitution_table(const std::vector<Dataset>& datasets) {
+  const RestitutionSummary summary = summarise_restitution(datasets);
   Table table;
   if (summary.means.size() < 2) return table;
   const SizeUnit sizes = size_unit(datasets);

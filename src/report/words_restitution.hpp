@@ -4,17 +4,19 @@
 
 #include "data/dataset.hpp"
 #include "document/document.hpp"
-#include "estimate/restitution_summary.hpp"
+#include "estimate/model.hpp"
 
 /// The mean restitution of every series, in words and as a table.
 namespace recoil {
 
-/// The mean e of every series, the dependence of e on V, and the difference between series. Empty
-/// if nothing rebounded.
-std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
-                                            const std::vector<Dataset>& datasets);
+/// Without adhesion: the mean e of every series, the dependence of e on V, and the difference
+/// between series of one size. With adhesion: e at the slowest and the fastest impacts of every
+/// size. Empty if nothing rebounded.
+/// @param model that is fitted to these points
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
+                                            const ImpactModel& model);
 
 /// The mean e of every series and setting; empty if there is only one.
-Table restitution_table(const RestitutionSummary& summary, const std::vector<Dataset>& datasets);
+Table restitution_table(const std::vector<Dataset>& datasets);
 
 }  // namespace recoil

@@ -6,16 +6,17 @@
 
 #include "data/text.hpp"
 #include "report/format.hpp"
-#include "report/words_diagnosis.hpp"
 #include "report/words_fit.hpp"
 
 namespace recoil {
-namespace {
 
 std::string law_error_range(const LawErrorEstimate& laws) {
-  return fmt::format("{:.2g} [{:.2g}, {:.2g}] % of the loss", 100.0 * laws.median,
-                     100.0 * laws.lower, 100.0 * laws.upper);
+  return laws.seen() ? fmt::format("{:.2g} [{:.2g}, {:.2g}] %", 100.0 * laws.median,
+                                   100.0 * laws.lower, 100.0 * laws.upper)
+                     : fmt::format("below {:.2g} %", 100.0 * laws.upper);
 }
+
+namespace {
 
 /// "f0 is 6.4 N/m, and the materials give 9.5 N/m", or by how much a constant moved.
 Sentence moved_constant_words(const FitResult& fitted, std::size_t constant) {
@@ -37,7 +38,15 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
     return say("The fit cannot be tested: its noise is not known ({}).", unknown_noise_reason(f));
   }
   if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
-  if (f.data.noise.sd_stated) return "The fit cannot be tested: chi-square is not known.";
+  if (f.data.noise.sd_stated && tests_the_curve(f)) {
+    return "The fit cannot be tested: chi-square is not known.";
+  }
+  if (f.data.noise.sd_stated) {
+    return say(
+        "The points cannot test the model: there are no more pairs of velocity and size than free "
+        "parameters. They scatter no more than stated ({}).",
+        p_words(*judged.p_value));
+  }
   if (judged.laws) {
     return say(
         "The points do not contradict the model; as they state no standard deviations, only a "
@@ -51,30 +60,23 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
 Sentence rejected_words(const FitResult& f, const ModelJudgement& judged) {
   const std::string p = p_words(f.p_value);
   const Sentence laws =
-      judged.laws && judged.laws->seen() ? ", even if its laws are wrong," : Sentence();
+      judged.laws && judged.laws->seen()
+          ? say(", even with laws wrong by {} of the loss", law_error_range(*judged.laws))
+          : Sentence();
+  if (f.noise_verdict == NoiseVerdict::exceeded && f.noise_scale == 1.0) {
+    return say(
+        "The model does not fit{}: its constants or laws would be off by more than their errors "
+        "({}).",
+        laws, p);
+  }
   if (f.noise_verdict == NoiseVerdict::exceeded) {
     return say(
-        "The model does not fit{}: the residuals are {} times the stated noise ({}), and all "
-        "intervals are widened by this factor.",
-        laws, number(f.noise_scale, 3), p);
+        "The model does not fit{}: the residuals are {} times {} ({}), and all intervals are "
+        "widened by this factor.",
+        laws, number(f.noise_scale, 3), noise_name(f), p);
   }
   return say("The model does not fit{}: chi-square is {} on {} degrees of freedom ({}).", laws,
              number(f.chi2, 4), f.dof, p);
-}
-
-/// The verdict of a diagnosis on a fit that took the laws as exact; empty if it has none of its
-/// own.
-Sentence verdict_of_diagnosis(const FitResult& fitted, const Diagnosis& diagnosis) {
-  const bool rejected = fitted.noise_verdict == NoiseVerdict::exceeded;
-  if (!diagnosis.answer_if<Adequate>()) return rejected ? "" : "The model does not fit.";
-  if (rejected && diagnosis.spec.law_error > 0.0) {
-    return say(
-        "The model fits if its laws are allowed an error of {}. With exact laws it does not fit: "
-        "the residuals are {} times the stated noise, and all intervals are widened by this "
-        "factor.",
-        percent(diagnosis.spec.law_error), number(fitted.noise_scale, 3));
-  }
-  return tests_the_curve(diagnosis) ? "The model fits." : "These points cannot test the model.";
 }
 
 }  // namespace
@@ -82,18 +84,13 @@ Sentence verdict_of_diagnosis(const FitResult& fitted, const Diagnosis& diagnosi
 Sentence law_error_words(const ModelJudgement& judged) {
   if (!judged.laws) return {};
   if (judged.laws->seen()) {
-    return say("The laws are wrong by {}.", law_error_range(*judged.laws));
+    return say("The laws are wrong by {} of the loss.", law_error_range(*judged.laws));
   }
-  return say("No error of the laws is seen: below {:.2g} % of the loss.",
-             100.0 * judged.laws->upper);
+  return say("No error of the laws is seen: {} of the loss.", law_error_range(*judged.laws));
 }
 
-Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
+Sentence verdict_sentence(const FitResult& fitted) {
   const ModelJudgement judged = judge_model(fitted);
-  if (diagnosis != nullptr && !judged.laws && fitted.data.noise.sd_stated) {
-    const Sentence own = verdict_of_diagnosis(fitted, *diagnosis);
-    if (!own.empty()) return own;
-  }
   const std::string p = judged.p_value ? p_words(*judged.p_value) : "";
   Sentence text;
   switch (judged.verdict) {
@@ -107,7 +104,8 @@ Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
                  moved_constant_words(fitted, *judged.moved));
       break;
     case ModelVerdict::fits_within_law_error:
-      text = say("The model fits if its laws are wrong by {}{}.", law_error_range(*judged.laws),
+      text = say("The model fits if its laws are wrong by {} of the loss{}.",
+                 law_error_range(*judged.laws),
                  p.empty() ? "" : "; with exact laws it does not (" + p + ")");
       break;
     case ModelVerdict::does_not_fit:
@@ -117,7 +115,10 @@ Sentence verdict_sentence(const FitResult& fitted, const Diagnosis* diagnosis) {
       text = untested_words(fitted, judged);
       break;
   }
-  if (judged.laws && !judged.laws->seen()) text += say(" {}", law_error_words(judged));
+  const bool said =
+      judged.verdict == ModelVerdict::fits_within_law_error ||
+      (judged.verdict == ModelVerdict::does_not_fit && judged.laws && judged.laws->seen());
+  if (judged.laws && !said) text += say(" {}", law_error_words(judged));
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimate/capture_velocity.hpp"
+#include "uncertainty/capture_rows.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -63,7 +64,11 @@ Interval delta_interval(const std::vector<FitAlternative>& alternatives,
   const double factor =
       undecided_factor(capture_terms(under_same_laws(alternatives), capture, dataset, diameter));
   if (!interval.note && factor > undecided) interval.note = {Caution::undecided_noise, factor};
-  return interval;
+  CaptureEstimate at;
+  at.dataset = dataset;
+  at.diameter = diameter;
+  at.value = capture.value;
+  return cut_by_rows(interval, fitted, at, level);
 }
 
 /// The studentized interval of V* of the k-th size, on its logarithm.
@@ -166,8 +171,11 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
     } else if (replicates.withheld()) {
       percentile = no_interval(NoInterval::refits_failed);
     } else {
-      percentile = percentile_interval(finite_column(replicates.capture_velocity, k), level);
-      studentized = studentized_capture(replicates, k, capture.value, level);
+      const auto cut = [&](const Interval& interval) {
+        return cut_by_rows(interval, fitted, capture, level);
+      };
+      percentile = cut(percentile_interval(finite_column(replicates.capture_velocity, k), level));
+      studentized = cut(studentized_capture(replicates, k, capture.value, level));
     }
     if (!studentized.available() && !studentized.missing) {
       studentized.missing = percentile.missing;

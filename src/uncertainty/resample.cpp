@@ -126,7 +126,10 @@ std::optional<std::string> scheme_obstacle(Scheme scheme, const Observations& da
     if (source->shared == SharedBy::none || !(by_residuals || scheme == Scheme::cases)) continue;
     return fmt::format(
         "points share an error ({}): single points cannot be exchanged, whole {} can (cluster)",
-        source->names.stated_by, source->shared == SharedBy::setting ? "settings" : "series");
+        source->names.stated_by,
+        source->shared == SharedBy::setting ? "settings"
+        : source->shared == SharedBy::size  ? "sizes"
+                                            : "series");
   }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
     return "all points belong to one series or share an error: there is nothing to exchange";

@@ -153,6 +153,7 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
     for (TwoPointComparison& comparison : comparisons) {
       ComparisonRow& row = comparison.rows.emplace_back();
       row.row = calibration;
+      row.headline = !other;
       if (other && !other->usable) {
         row.failure = other->failure;
         continue;
@@ -167,6 +168,21 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
       row.rmse = own.full_rmse;
       row.held_out_rmse = own.full_held_out_rmse;
     }
+  }
+}
+
+void add_headline_row(const FitResult& fitted, std::vector<TwoPointComparison>& comparisons) {
+  for (TwoPointComparison& comparison : comparisons) {
+    for (ComparisonRow& row : comparison.rows) row.headline = false;
+    const TwoPointComparison own = compare_two_point(fitted, comparison.dataset);
+    comparison.handovers += own.handovers;
+    comparison.rows.push_back({.row = CalibrationKind::fit,
+                               .theta = fitted.theta,
+                               .failure = {},
+                               .rmse = own.full_rmse,
+                               .held_out_rmse = own.full_held_out_rmse,
+                               .standard_errors = fitted.std_error,
+                               .headline = true});
   }
 }
 

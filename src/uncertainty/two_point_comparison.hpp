@@ -17,9 +17,10 @@ enum class CalibrationKind {
   two_point,     ///< the paper's iteration, with f0 of eq. 12 or of the fit file
   full,          ///< all points, with the same f0
   full_f0_free,  ///< all points, with f0 fitted
+  fit,           ///< the fit itself, if constants and laws are not those of the other rows
 };
 constexpr auto names_of_values(CalibrationKind) {
-  return name_list("two_point", "full", "full_f0_free");
+  return name_list("two_point", "full", "full_f0_free", "fit");
 }
 
 /// The result of one method.
@@ -34,6 +35,7 @@ struct ComparisonRow {
   /// those at a bound; empty for two points, if the noise is not known, or if J'J is singular.
   std::vector<double> standard_errors = {};
   bool noise_known = true;  ///< Noise::known of the fit
+  bool headline = false;    ///< is it the fit whose parameters are reported?
 };
 
 /// Comparison of the two-point calibration with the fit to all points: both are calibrated on one
@@ -65,8 +67,11 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
 std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted);
 
 /// Fills the rows: two points, all points with the same f0, all points with f0 fitted. The fit
-/// itself is one of the last two; this fits the other.
+/// itself is one of the last two and the headline; this fits the other.
 void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison>& comparisons);
+
+/// Adds the row of `fitted`, as the headline, to those of a fit with other constants or laws.
+void add_headline_row(const FitResult& fitted, std::vector<TwoPointComparison>& comparisons);
 
 /// Repeats the two-point iteration on the same resampled data as the replicates of `result` (the
 /// first 999 of them), and adds its estimates to `result` and both spreads to `comparisons`.

@@ -61,14 +61,12 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     ASSERT_TRUE(fitted.usable) << fitted.failure;
     const CaptureEstimate at = capture_estimates(fit_alternatives(fitted), 0.95, datasets).front();
     const double off = std::log(at.value / truth.capture[0].velocity);
-    const Interval& delta = at[CaptureIntervalKind::delta];
-    const double error = std::log(*delta.upper / *delta.lower) / (2.0 * 1.959964);
-    square += std::pow(off / error, 2) / sets;
     std::vector<double> less = fitted.covariance;
     for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
       less[k] -= fitted.spread_covariance[k];
     }
     const CaptureVelocity v = capture_velocity(fitted.model, fitted.theta, 0, at.diameter);
+    square += std::pow(off / logarithmic_error(v, fitted.covariance), 2) / sets;
     unknowing += std::pow(off / logarithmic_error(v, less), 2) / sets;
     FitResult fixed = fitted;
     fixed.weights.noise.event_spread = 0.0;  // the weights stay, and nothing renews them

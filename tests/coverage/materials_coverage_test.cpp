@@ -50,6 +50,7 @@ const CoverageCell& cell_of(const CoverageRow& row, const std::string& interval)
 CoverageResult coverage_of(bool fit_knows, int datasets, int replicates) {
   const std::vector<Dataset> data = {uncertain_materials()};
   FitSpec spec = synthetic::spec();
+  spec.uncertainty.materials = Materials::propagated;
   const CoverageTruth truth = independent_truth(spec, data, 20260101);
   CoverageOptions options;
   options.datasets = datasets;

@@ -89,8 +89,10 @@ TEST(HeldOut, AFoldIsPredictedByTheOtherPoints) {
   const Candidate base = make_candidate(synthetic::spec(), data, {});
   const Observations points = gather(data);
   const std::vector<Fold> folds = held_out_folds(points, data.size(), 2);
-  for (const FoldPrediction& fold : predict_folds(base, points, first_weights(points), {}, folds,
-                                                  std::vector<double>{4e-3, 0.04, 8.9}, 1)) {
+  Refit start;
+  start.theta = {4e-3, 0.04, 8.9};
+  for (const FoldPrediction& fold :
+       predict_folds(base, points, first_weights(points), {}, folds, start, 1)) {
     ASSERT_TRUE(fold.usable);
     for (const double error : fold.error) EXPECT_NEAR(error, 0.0, 2e-3);
   }

@@ -70,7 +70,7 @@ struct Yielding {
   Candidate yielding = make_candidate(synthetic::spec(), data, {"plastic_yield"});
   Observations points = gather(data);
   Weights weights = first_weights(points);
-  LawErrors laws{0.1, 0.0, smooth_functions(points)};
+  LawErrors laws{{}, smooth_functions(points), 0.1};
 };
 
 TEST(LawErrors, OfAMechanismThatDoesNothingAreNothing) {
@@ -81,9 +81,10 @@ TEST(LawErrors, OfAMechanismThatDoesNothingAreNothing) {
     if (made.yielding.adds(slot)) theta[j] = slot.parameter->null_value;
   }
   const auto columns =
-      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws);
+      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws, 0.03);
   ASSERT_TRUE(columns);
-  EXPECT_EQ(columns->norm(), 0.0);
+  EXPECT_EQ(columns->rightCols(made.laws.functions.cols()).norm(), 0.0);
+  EXPECT_GT(columns->leftCols(made.laws.functions.cols()).norm(), 0.0);  // of the base model
 }
 
 TEST(LawErrors, AreATenthOfTheEffect) {
@@ -99,16 +100,16 @@ TEST(LawErrors, AreATenthOfTheEffect) {
       own = j;
   }
   const auto columns =
-      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws);
+      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws, 0.03);
   ASSERT_TRUE(columns);
   ASSERT_EQ(columns->cols(), 2);
-  EXPECT_EQ(columns->col(0).norm(), 0.0);  // the base model is exact here
   const double whole = columns->col(1).norm();
   EXPECT_GT(whole, 0.0);
   made.laws.mechanism = 0.05;
-  EXPECT_NEAR(
-      law_error_columns(made.yielding, made.points, made.weights, theta, made.laws)->col(1).norm(),
-      0.5 * whole, 1e-12 * whole);
+  EXPECT_NEAR(law_error_columns(made.yielding, made.points, made.weights, theta, made.laws, 0.03)
+                  ->col(1)
+                  .norm(),
+              0.5 * whole, 1e-12 * whole);
   EXPECT_GT(own, 0U);
 }
 
@@ -129,25 +130,49 @@ TEST(LawErrors, TakeUpATenthOfTheLossesThatAreBent) {
   const Observations points = gather(data);
   const Weights weights = first_weights(points);
   const Refit exact = refit_candidate(base, points, weights, base.model.initial(), 2);
-  const Refit loose =
-      with_law_errors(base, points, weights, exact, {0.1, 0.03, smooth_functions(points)});
+  const LawErrors laws = allowed_law_errors(std::nullopt, points);
+  const auto loosened = [&](double size) {
+    return refit_with_law_error(base, points, weights, exact, laws, size);
+  };
+  const Refit loose = loosened(0.03);
   ASSERT_TRUE(exact.usable);
   ASSERT_TRUE(loose.usable);
   EXPECT_GT(exact.chi2, 60.0);
   EXPECT_LT(loose.chi2, 0.4 * exact.chi2);
   EXPECT_LT(corrected_criterion(points, loose, 2), corrected_criterion(points, exact, 2));
+  // The average over the sizes is their mean likelihood.
+  double sum = 0.0;
+  for (const LawErrorSize& one : laws.sizes) {
+    sum += one.prior *
+           std::exp(-0.5 * corrected_criterion(points, loosened(one.size), base.free_count));
+  }
+  const RefitOverLaws over = refit_over_laws(base, points, weights, exact, laws);
+  EXPECT_NEAR(over.criterion, -2.0 * std::log(sum), 0.1);
+  EXPECT_GT(over.refit.law_error, 0.0);
+  EXPECT_EQ(over.first_chi2, loose.chi2);
+}
+
+TEST(LawErrors, AreOfOneSizeIfItIsStated) {
+  const Observations points = gather({synthetic::dataset({})});
+  const LawErrors laws = allowed_law_errors(0.1, points);
+  ASSERT_EQ(laws.sizes.size(), 1U);
+  EXPECT_NEAR(laws.sizes.front().size, 0.03, 1e-15);
+  EXPECT_EQ(laws.sizes.front().prior, 1.0);
+  EXPECT_EQ(laws.mechanism, 0.1);
 }
 
 TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
   // The likelihood of all points is that of those seen times that of the others given them.
   Yielding made;
-  made.laws.base = 0.03;
+  constexpr double size = 0.03;
   const std::vector<Fold> folds = held_out_folds(made.points, 1, 2);
   const Fold& fold = folds.front();
-  const std::vector<double> theta = {4e-3, 0.04, 8.9};
+  Refit start;
+  start.theta = {4e-3, 0.04, 8.9};
+  start.law_error = size;
   // At a fit that cannot move: the other points are fitted from where the truth is.
   const auto predicted =
-      predict_folds(made.base, made.points, made.weights, made.laws, {fold}, theta, 1).front();
+      predict_folds(made.base, made.points, made.weights, made.laws, {fold}, start, 1).front();
   ASSERT_TRUE(predicted.usable);
   Observations seen = made.points, unseen = made.points;
   seen.points.clear();
@@ -158,11 +183,12 @@ TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
     (inside ? unseen : seen).points.push_back(made.points.points[i]);
     if (!inside) others.push_back(i);
   }
-  const Refit refit = with_law_errors(
+  const LawErrors of_others = made.laws.of(others);
+  const Refit refit = refit_with_law_error(
       made.base, seen, first_weights(seen),
-      refit_candidate(made.base, seen, first_weights(seen), theta, 2), made.laws.of(others));
+      refit_candidate(made.base, seen, first_weights(seen), start.theta, 2), of_others, size);
   const auto log_likelihood = [&](const Observations& some, const LawErrors& laws) {
-    const auto U = law_error_columns(made.base, some, first_weights(some), refit.theta, laws);
+    const auto U = law_error_columns(made.base, some, first_weights(some), refit.theta, laws, size);
     const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(U->rows(), U->rows()) + *U * U->transpose();
     Eigen::VectorXd r(U->rows());
     const std::vector<Prediction> at = [&] {
@@ -179,7 +205,7 @@ TEST(HeldOut, KnowsWhatTheOtherPointsSayOfALaw) {
     return r.dot(C.ldlt().solve(r)) + std::log(C.determinant());
   };
   const double joint = log_likelihood(made.points, made.laws);
-  const double of_seen = log_likelihood(seen, made.laws.of(others));
+  const double of_seen = log_likelihood(seen, of_others);
   EXPECT_NEAR(predicted.deviance, joint - of_seen, 1e-6);
 }
 

@@ -81,6 +81,7 @@ TEST(InputErrors, EffectiveVarianceIsTheSlopeTimesTheError) {
     point.velocity_sd = 0.02 * point.incident_velocity;
     point.diameter_sd = 0.04 * point.diameter;
   }
+  data.points.front().diameter_sd = 0.0401 * one_size::diameter;  // no batch
   const FitResult result = fit_to(data);
   ASSERT_TRUE(result.usable);
   for (const std::size_t i : {std::size_t{1}, std::size_t{4}, std::size_t{7}}) {
@@ -94,6 +95,31 @@ TEST(InputErrors, EffectiveVarianceIsTheSlopeTimesTheError) {
     EXPECT_NEAR(result.weights.points[i].input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2)
         << i;
   }
+}
+
+/// Rows of one nominal diameter that state the same error share it, those of each size their own.
+TEST(Batches, AreRowsOfOneDiameterAndOneError) {
+  Dataset data = synthetic::dataset({.diameters = {2e-6, 5e-6}, .velocities = {5.0, 9.0, 20.0}});
+  for (ImpactPoint& point : data.points) point.diameter_sd = 0.03 * point.diameter;
+  const auto batches = [&] {
+    int count = 0;
+    for (const Observation& point : gather({data}).points) {
+      EXPECT_TRUE((point.batch_diameter_sd > 0.0) != (point.diameter_sd > 0.0));
+      count += point.batch_diameter_sd > 0.0 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(batches(), 6);
+  const Observations both = gather({data});
+  EXPECT_TRUE(both.share(SharedBy::size));
+  EXPECT_EQ(both.points[0].size, both.points[2].size);
+  EXPECT_NE(both.points[0].size, both.points[3].size);
+  data.points[1].diameter_sd = 0.031 * data.points[1].diameter;  // measured one by one
+  EXPECT_EQ(batches(), 3);
+  data.points[3].diameter *= 1.01;  // leaves two of its size
+  EXPECT_EQ(batches(), 2);
+  for (ImpactPoint& point : data.points) point.series_diameter_sd = 1e-8;
+  EXPECT_EQ(batches(), 0) << "diameter_sd is the part beside the error of the series";
 }
 
 TEST(InputErrors, ErrorsTooLargeForAFirstOrderAreWarnedOf) {

@@ -333,7 +333,9 @@ TEST(Materials, StayAsStatedAndWidenTheErrors) {
   data.system.errors = {
       {Body::particle, Constant::youngs_modulus, 0.1 * data.system.particle.youngs_modulus},
       {Body::surface, Constant::surface_energy, 0.2 * *data.system.surface.surface_energy}};
-  const FitResult with = fit(make_model(synthetic::spec(), {data}), gather({data}));
+  FitSpec held = synthetic::spec();
+  held.uncertainty.materials = Materials::propagated;
+  const FitResult with = fit(make_model(held, {data}), gather({data}));
   FitSpec off = synthetic::spec();
   off.uncertainty.materials = Materials::exact;
   const FitResult without = fit(make_model(off, {data}), gather({data}));

@@ -144,6 +144,65 @@ TEST(RestitutionSummary, SaysWhatCannotBeSeen) {
   EXPECT_TRUE(summarise_restitution({captured}).means.empty());
 }
 
+// One point without an error takes the median of the others (0.02), by the
+// formula of the weighted line in Python with sd = 0.01, 0.02, 0.02, 0.04 for x = log10 V.
+TEST(RestitutionSummary, OneMissingErrorCountsWithTheMedian) {
+  Dataset data = dataset_of({{0, 1.0, 0.80}, {0, 2.0, 0.79}, {0, 4.0, 0.76}, {0, 8.0, 0.70}});
+  const double sd[] = {0.01, 0.02, 0.0, 0.04};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (sd[i] > 0.0) data.points[i].restitution_sd = sd[i];
+  }
+  const RestitutionSummary missing = summarise_restitution({data});
+  EXPECT_EQ(missing.without_error, 1U);
+  EXPECT_EQ(missing.rebounds, 4U);
+  EXPECT_NEAR(*missing.velocity.value, -0.07972627427729675, 1e-9);
+  data.points[2].restitution_sd = 0.02;
+  const RestitutionSummary stated = summarise_restitution({data});
+  EXPECT_EQ(stated.without_error, 0U);
+  EXPECT_EQ(*stated.velocity.value, *missing.velocity.value);
+  EXPECT_EQ(*stated.velocity.interval, *missing.velocity.interval);
+}
+
+TEST(RestitutionSummary, OnlySeriesOfOneSizeAreCompared) {
+  Dataset data = dataset_of(two_series);
+  for (ImpactPoint& point : data.points) point.diameter = point.series == 0 ? 0.03 : 0.05;
+  const RestitutionSummary apart = summarise_restitution({data});
+  EXPECT_FALSE(apart.series.p_value.has_value());
+  EXPECT_EQ(apart.series.why, "no two series have one size");
+  // A third series of the first size, 0.05 higher: only these two are compared.
+  for (std::size_t i = 0; i < 4; ++i) {
+    data.points.push_back(data.points[i]);
+    data.points.back().series = 2;
+    data.points.back().restitution += 0.05;
+  }
+  data.series.emplace_back("c");
+  const RestitutionSummary found = summarise_restitution({data});
+  EXPECT_NEAR(*found.series.value, 0.05, 1e-12);
+  EXPECT_EQ(found.most_different, (std::array<std::size_t, 2>{2, 0}));
+}
+
+TEST(RestitutionSummary, WithAdhesionTheEndsOfEverySizeCount) {
+  Dataset data = dataset_of({{0, 4.0, 0.80}, {0, 1.0, 0.30}, {0, 8.0, 0.70}, {0, 0.5, 0.0}}, 0.01);
+  data.points[3].captured = 1;
+  data.points.push_back(data.points[1]);  // the slowest rebounds: mean e 0.35
+  data.points.back().restitution = 0.40;
+  data.points.push_back(data.points[0]);
+  data.points.back().diameter = 0.05;
+  const RestitutionSummary found = summarise_restitution({data}, true);
+  EXPECT_FALSE(found.velocity.p_value.has_value());
+  EXPECT_FALSE(found.series.p_value.has_value());
+  ASSERT_EQ(found.ranges.size(), 2U);
+  const RestitutionRange& range = found.ranges.front();
+  EXPECT_EQ(range.settings, 3U);
+  EXPECT_EQ(range.slowest.velocity, 1.0);
+  EXPECT_NEAR(range.slowest.value, 0.35, 1e-12);
+  EXPECT_NEAR(range.slowest.error, 0.01 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(range.fastest.velocity, 8.0);
+  EXPECT_EQ(range.largest.value, 0.80);
+  EXPECT_TRUE(range.peaks());  // 0.80 and 0.70 are 7 standard errors apart
+  EXPECT_EQ(found.ranges.back().diameter, 0.05);
+}
+
 /// Nothing hidden: in 5 % of data sets a slope or a difference is called one, stated errors or not.
 TEST(RestitutionSummary, AccusesNothingInFivePerCent) {
   std::mt19937 random(5);

@@ -163,6 +163,7 @@ TEST(SharedSizes, WidenTheErrorByTheSizeOfTheBatch) {
       point.restitution += 0.01 * normal(random);
       point.diameter_sd = 0.03 * point.diameter;
     }
+    data.points.front().diameter_sd = 0.0301 * data.points.front().diameter;  // no batch
     const FitResult independent = fitted(data);
     for (ImpactPoint& point : data.points) std::swap(point.diameter_sd, point.series_diameter_sd);
     const FitResult shared = fitted(data);

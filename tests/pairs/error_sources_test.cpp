@@ -94,7 +94,9 @@ Eigen::MatrixXd stated_covariance(const Sources& sources, const Dataset& data) {
       if (i == j) {
         entry += sd * sd;
         if (sources.contains("velocity_sd")) entry += by_velocity(i) * by_velocity(i);
-        if (sources.contains("diameter_sd")) entry += by_diameter(i) * by_diameter(i);
+        if (sources.contains("diameter_sd") && sources.contains("series_diameter_sd")) {
+          entry += by_diameter(i) * by_diameter(i);
+        }
       } else if (sources.contains("launch") && one_launch) {
         // e_k is made of the instants k, k + 1 and k + 2, in these parts
         const auto parts = [&](Eigen::Index k) {
@@ -109,6 +111,10 @@ Eigen::MatrixXd stated_covariance(const Sources& sources, const Dataset& data) {
         const double times = setting_relative_sd / relative_sd;
         entry += times * times * (relative_sd * e(i) + by_velocity(i)) *
                  (relative_sd * e(j) + by_velocity(j));
+      }
+      // One diameter and one error of it in all rows: a batch.
+      if (sources.contains("diameter_sd") && !sources.contains("series_diameter_sd")) {
+        entry += by_diameter(i) * by_diameter(j);
       }
       if (one_launch && sources.contains("series_diameter_sd")) {
         entry += by_diameter(i) * by_diameter(j);

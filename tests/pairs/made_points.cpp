@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -80,7 +81,11 @@ class Experiment {
 
   int series_count() const { return is("scheme", "cluster") ? 4 : 2; }
   double diameter_of(int series) const {
-    return is("sizes", "several") && series % 2 == 1 ? small_diameter : reference_diameter;
+    // Spheres of one nominal diameter are one batch; whole series can be drawn of several.
+    const double batch =
+        is("scheme", "cluster") && is("diameter_sd", "yes") ? 1.0 + 0.005 * series : 1.0;
+    return batch *
+           (is("sizes", "several") && series % 2 == 1 ? small_diameter : reference_diameter);
   }
 
   /// e of one sphere, the part of the mechanism that acts in the contact included.
@@ -179,7 +184,12 @@ class Experiment {
     double velocity = point.velocity - offset;
     double diameter = point.diameter;
     if (is("velocity_sd", "yes")) velocity *= 1.0 + relative_input_sd * normal();
-    if (is("diameter_sd", "yes")) diameter *= 1.0 + relative_input_sd * normal();
+    if (is("diameter_sd", "yes")) {
+      const bool batch = !is("series_diameter_sd", "yes");
+      diameter *=
+          1.0 + relative_input_sd *
+                    (batch ? shared("size " + std::to_string(1e9 * point.diameter)) : normal());
+    }
     double ratio = 1.0;
     if (is("setting_velocity_sd", "yes")) {
       ratio += relative_input_sd * shared("velocity of " + point.setting);
@@ -366,8 +376,10 @@ std::string fit_of(const Choice& choice) {
   fit += fmt::format(
       "[uncertainty]\nreplicates = 19\nlevel = 0.9\nown_design = false\nscheme = \"{}\"\n",
       choice.at("scheme"));
-  if (choice.at("materials") == "adjusted") fit += "materials = \"adjust\"\n";
-  if (choice.at("materials") == "averaged") fit += "materials = \"auto\"\n";
+  const std::map<std::string, std::string> materials = {
+      {"exact", "false"}, {"propagated", "true"}, {"adjusted", "\"adjust\""}};
+  const auto stated = materials.find(choice.at("materials"));
+  if (stated != materials.end()) fit += "materials = " + stated->second + "\n";
   return fit;
 }
 
@@ -403,12 +415,14 @@ const std::vector<Pair>& refused_pairs() {
                                // errors that points share are normal
                                pair_of({"residuals", "student"}, {"setting", "stated"}),
                                pair_of({"residuals", "student"}, {"setting_velocity_sd", "yes"}),
+                               pair_of({"residuals", "student"}, {"diameter_sd", "yes"}),
                                pair_of({"residuals", "student"}, {"series_diameter_sd", "yes"})};
     // single points cannot be exchanged if they share errors
     for (const char* scheme : {"residual", "wild", "case"}) {
       pairs.push_back(pair_of({"scheme", scheme}, {"setting_velocity_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"setting", "stated"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"setting", "estimated"}));
+      pairs.push_back(pair_of({"scheme", scheme}, {"diameter_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"series_diameter_sd", "yes"}));
       pairs.push_back(pair_of({"scheme", scheme}, {"launch", "yes"}));
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <regex>
 #include <set>
 
@@ -12,13 +13,20 @@
 #include "core/error.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "covering_array.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "document/html.hpp"
+#include "estimate/law_average.hpp"
+#include "estimate/model_verdict.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_errors.hpp"
 #include "estimate/two_point.hpp"
 #include "made_points.hpp"
+#include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
+#include "report/index_page.hpp"
 #include "report/result_json.hpp"
+#include "report/words_verdict.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 #include "uncertainty/resample.hpp"
@@ -192,10 +200,15 @@ TEST(TwoPoints, LieOnTheirCurveUnderTheSlowLaws) {
   EXPECT_GE(compared, 15);
 }
 
-/// Does an interval end within the bounds of its parameter?
-bool within_bounds(const Interval& interval, const ParameterSlot& slot) {
+/// Does an interval end within the bounds of its parameter, and about as far above the estimate as
+/// below? Halves of 1 to 2.4 make it 1.7 times as wide as a symmetric one.
+bool is_comparable(const Interval& interval, double estimate, const ParameterSlot& slot) {
   const double margin = 1e-6 * (slot.upper - slot.lower);
-  return *interval.lower > slot.lower + margin && *interval.upper < slot.upper - margin;
+  if (*interval.lower <= slot.lower + margin || *interval.upper >= slot.upper - margin)
+    return false;
+  const double above = *interval.upper - estimate;
+  const double below = estimate - *interval.lower;
+  return above < 2.4 * below && below < 2.4 * above;
 }
 
 /// The largest ratio of two widths of one parameter. Percentiles of 19 replicates are their
@@ -225,13 +238,16 @@ TEST_F(Pairs, IntervalsOfAllKindsHaveSimilarWidths) {
       for (const IntervalKind kind :
            {IntervalKind::wald, IntervalKind::profile, IntervalKind::percentile}) {
         const Interval& interval = intervals[kind];
-        if (!interval.available() || !within_bounds(interval, slot)) continue;
+        if (!interval.available() || !is_comparable(interval, fitted.theta[j], slot)) {
+          continue;
+        }
         widths.push_back(*interval.upper - *interval.lower);
       }
       if (widths.size() < 2) continue;
       const auto [least, most] = std::minmax_element(widths.begin(), widths.end());
       EXPECT_LT(*most, *least * largest_ratio(made->choice.at("scheme")))
-          << slot.label() << " of " << made->folder << ": " << pairs::words_of(made->choice);
+          << slot.label() << " of " << made->folder << ": " << pairs::words_of(made->choice) << ": "
+          << testing::PrintToString(widths);
       ++compared;
     }
   }
@@ -321,7 +337,7 @@ TEST_F(Pairs, TheBootstrapDrawsTheScatterThatTheFitStates) {
         << made->folder << ": " << pairs::words_of(made->choice);
     ++compared;
   }
-  EXPECT_GE(compared, 10);
+  EXPECT_GE(compared, 8);
 }
 
 TEST_F(Pairs, CoverageSimulatesTheScatterThatTheFitStates) {
@@ -381,7 +397,121 @@ TEST_F(Pairs, PagesHaveNoMissingNumber) {
   }
 }
 
-/// A point of the fitted curve, as fit.json has it.
+/// The words of a page, without markup, with single spaces.
+std::string words_of_page(const std::string& html) {
+  std::string words =
+      std::regex_replace(html, std::regex("<(script|style)[^>]*>[^]*?</(script|style)>"), "");
+  words = std::regex_replace(words, std::regex("<[^>]*>"), "");
+  for (const auto& [entity, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
+    words = std::regex_replace(words, std::regex(entity), letter);
+  }
+  return std::regex_replace(words, std::regex("\\s+"), " ");
+}
+
+/// Choices for fits without slow laws: of every form of data, some with mechanisms that the fit
+/// does not know, some with a point that is far off.
+struct Question {
+  Choice choice;
+  bool wrong_law = false, outlier = false;
+};
+std::vector<Question> questions(int count) {
+  std::mt19937 random(51);
+  std::vector<Question> all;
+  while (static_cast<int>(all.size()) < count) {
+    Question question;
+    for (const pairs::Feature& feature : pairs::features()) {
+      question.choice[feature.name] = feature.forms[random() % feature.forms.size()];
+    }
+    question.choice["materials"] = "averaged";
+    question.choice["scheme"] = "parametric";
+    if (question.choice["law"] == "jkr" && random() % 4 != 0) question.choice["law"] = "ring";
+    if (question.choice["sizes"] == "mixed") question.choice["sizes"] = "several";
+    question.wrong_law = random() % 3 == 0;
+    question.outlier = random() % 4 == 0;
+    const std::vector<Pair> missing = missing_pairs();
+    if (std::ranges::any_of(missing,
+                            [&](const Pair& pair) { return pairs::has(question.choice, pair); })) {
+      continue;
+    }
+    all.push_back(std::move(question));
+  }
+  return all;
+}
+
+/// The text of a fit file without its mechanisms.
+std::string without_mechanisms(const std::string& fit) {
+  return std::regex_replace(fit, std::regex("mechanisms = [^\n]*\n"), "");
+}
+
+/// A table of points whose first e is off by 0.15.
+std::string with_outlier(const std::string& table) {
+  const std::size_t row = table.find('\n') + 1;
+  std::size_t cell = row;
+  for (int k = 0; k < 3; ++k) cell = table.find(',', cell) + 1;
+  const std::size_t end = table.find(',', cell);
+  if (cell == end) return table;
+  const double e = std::stod(table.substr(cell, end - cell));
+  return table.substr(0, cell) + fmt::format("{:.6f}", e > 0.5 ? e - 0.15 : e + 0.15) +
+         table.substr(end);
+}
+
+// Whether the model fits is said once, in the same words, wherever a user looks.
+TEST(OneVerdict, StandsInEveryPlace) {
+  const std::regex another(
+      "model (barely )?(fits|does not fit|describes)|points (contradict|reject)|"
+      "explains? the scatter|data reject");
+  std::set<ModelVerdict> met;
+  int compared = 0, diagnosed = 0;
+  for (const Question& question : questions(220)) {
+    SCOPED_TRACE(pairs::words_of(question.choice));
+    const TemporaryFolder folder;
+    pairs::write_fit(question.choice, folder.path());
+    std::string fit = folder.read("fit.toml");
+    if (question.wrong_law) fit = without_mechanisms(fit);
+    fit = std::regex_replace(fit, std::regex("replicates = 19"), "replicates = 0");
+    folder.write("fit.toml", fit);
+    if (question.outlier) {
+      folder.write("data/points.csv", with_outlier(folder.read("data/points.csv")));
+    }
+    std::optional<Analysis> analysis;
+    try {
+      analysis = analysed(folder.path(), 1);
+    } catch (const ComputationError&) {
+      continue;
+    }
+    const std::string verdict = plain_text(verdict_sentence(analysis->fitted));
+    const auto says_it_once = [&](const std::string& place, std::string text) {
+      const std::size_t at = text.find(verdict);
+      ASSERT_NE(at, std::string::npos) << place << ": " << verdict << "\n" << text.substr(0, 900);
+      text.erase(at, verdict.size());
+      std::smatch found;
+      EXPECT_FALSE(std::regex_search(text, found, another))
+          << place << ": " << found.str() << " beside " << verdict;
+    };
+    const std::string json = fit_json(*analysis);
+    EXPECT_EQ(nlohmann::json::parse(json)["model_verdict"]["text"], verdict);
+    says_it_once("terminal", words_of_page(fit_text(*analysis, Importance::answer)));
+    says_it_once("page", words_of_page(fit_html(*analysis)));
+    says_it_once("card", words_of_page(html_page(index_document({{"fit.html", json}}))));
+    met.insert(judge_model(analysis->fitted).verdict);
+    ++compared;
+    const bool few = question.choice.at("law") == "none" && diagnosed < 20;
+    if (!few) continue;
+    DiagnosisOptions options;
+    options.simulated = 19;
+    options.answer_alone = true;
+    options.threads = 1;
+    const Diagnosis d = diagnose(analysis->spec, analysis->datasets, analysis->fitted, options);
+    EXPECT_EQ(nlohmann::json::parse(diagnosis_json(d))["model_verdict"]["text"], verdict);
+    says_it_once("diagnosis", words_of_page(diagnosis_text(d, Importance::answer)));
+    ++diagnosed;
+  }
+  EXPECT_GE(compared, 200);
+  EXPECT_GE(diagnosed, 10);
+  EXPECT_EQ(met.size(), 5U) << "verdicts that occur";
+}
+
+/// A point of the fitted curve, as fit.json has it; with exact laws if the fit is averaged.
 struct CurvePoint {
   double diameter_um, velocity, restitution;
 };
@@ -393,7 +523,16 @@ CurvePoint point_of_curve(const Made& made) {
     if (at["diameter_um"] != fit["curve"][0]["diameter_um"]) continue;
     points.push_back({at["diameter_um"], at["incident_velocity"], at["restitution"]});
   }
-  return points.at(points.size() * 2 / 3);
+  CurvePoint point = points.at(points.size() * 2 / 3);
+  const FitResult& averaged = made.analysis->fitted;
+  const FitResult& exact = with_laws_exact(averaged);
+  if (&exact != &averaged) {
+    point.restitution = std::sqrt(
+        predict(exact.model, exact.theta, {{0, point.diameter_um * 1e-6, point.velocity}}, false)
+            .front()
+            .restitution_squared);
+  }
+  return point;
 }
 
 support::Outcome ask(const Made& made, const std::vector<std::string>& words,

@@ -74,7 +74,8 @@ def furnish(folder):
     for name in ("mine", "misfit", "uncertain"):
         (folder / f"{name}.toml").write_text(
             f'dataset = "{name}"\n[uncertainty]\nreplicates = 39\nown_design = false\n'
-            + ("materials = false\n" if name == "misfit" else ""))  # else they take it up
+            # else constants or laws take it up
+            + ("materials = false\n[diagnosis]\nlaw_error = 0.1\n" if name == "misfit" else ""))
     return folder
 
 

@@ -161,7 +161,7 @@ MADE_WRONG = [
     ("plan", ["plan", "mine.toml"]),
     ("pair", RESULTS["pair"][0])]
 OPTIONAL = {
-    "fit": ("/own_design", "/separation_m", "/capture_velocity/0/why", "/budget", "/budget_linear",
+    "fit": ("/separation_m", "/capture_velocity/0/why", "/budget", "/budget_linear",
             "/move", "/budget_sd_without_first_constant", "/materials_exact", "/spread",
             "/capture_velocity/0/intervals/posterior"),
     "diagnosis": ("/interval", "/condition", "/value", "/doing", "/own_design"),

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "report/comparison_report.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {
@@ -68,6 +69,21 @@ TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
   EXPECT_THROW(compared_fit("x.json", "{"), InputError);
   EXPECT_THROW(compared_fit("x.json", R"({"verdict": "adequate"})"), InputError);
   EXPECT_THROW(compared_fit("x.json", R"({"format_version": 2, "parameters": {}})"), InputError);
+}
+
+TEST(Comparison, ShowsTheErrorOfTheLaws) {
+  std::string text = fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]");
+  std::string seen = text;
+  seen.insert(1,
+              R"("model_verdict": {"law_error": {"seen": true, "probability_of_exact_laws": 0.001,
+      "median": 0.021, "lower": 0.012, "upper": 0.038}}, )");
+  const std::vector<ComparedFit> fits = {compared_fit("a", text), compared_fit("b", seen)};
+  const std::vector<Section> sections = comparison_sections(fits);
+  const auto& table = std::get<Table>(sections.front().blocks.front().content());
+  EXPECT_EQ(plain_text(table.columns.back().heading), "error of the laws");
+  EXPECT_EQ(plain_text(std::get<Sentence>(table.rows[0].back())), "taken as exact");
+  EXPECT_EQ(plain_text(std::get<Sentence>(table.rows[1].back())), "2.1 [1.2, 3.8] %");
+  EXPECT_THAT(comparison_json(fits), testing::HasSubstr("0.038"));
 }
 
 TEST(Comparison, HasNoAiccWithoutALikelihood) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "estimate/predictor.hpp"
 #include "example_analysis.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/fit_report.hpp"
@@ -144,6 +145,71 @@ TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
   EXPECT_THAT(discs.x, ElementsAre(2.0, 2.0));
   EXPECT_EQ(map.y.unit, "µm");
   EXPECT_TRUE(inside(3.0, map.y) && inside(8.0, map.y));
+}
+
+/// The sample with an error of the laws of 3 % that bends over 1.6 in ln V, the coefficients z of
+/// which have the variance `variance`; laws are exact with a probability of 0.1 %.
+Analysis with_wrong_laws(double variance) {
+  Analysis a = sample::four_diameters();
+  FitResult& f = a.fitted;
+  const LawErrorPrior prior{.size = 0.03, .length = 1.6};
+  f.model = with_law_error(with_exact_materials(f.model), prior, f.data.conditions());
+  const std::size_t slots = f.model.slots.size(), first = f.model.first_law_slot();
+  f.theta.resize(first);
+  f.theta.resize(slots, 0.0);
+  f.theta[first] = 1.0;
+  f.std_error.assign(slots, 0.0);
+  f.covariance.assign(slots * slots, 0.0);
+  for (std::size_t j = first; j < slots; ++j) f.covariance[j * slots + j] = variance;
+  f.constant_effects.clear();
+  f.constants_moved.assign(slots - first, 0.0);
+  f.quantile_dof = 0;
+  f.laws = {{{}, 0.001, {}}, {prior, 0.999, {}}};
+  return a;
+}
+
+// The first function of the error belongs to the smallest size, one unit of ln V below its slowest
+// point: g = 0.03 exp(-(ln V - ln V_0)^2 / (2 1.6^2)). All functions together have the variance
+// 0.03^2, to one part in a thousand.
+TEST(LawErrorFigures, ShowTheErrorWithItsBandAndThePointsInUnitsOfTheLoss) {
+  const Analysis a = with_wrong_laws(0.04);
+  const std::vector<Figure> figures = law_error_figures(a);
+  ASSERT_EQ(figures.size(), 1U);
+  const plot::Plot& shown = plot_of(figures.front());
+  const auto lines = layers_of<plot::Line>(shown);
+  const auto bands = layers_of<plot::Band>(shown);
+  const auto points = layers_of<plot::Points>(shown);
+  ASSERT_EQ(lines.size(), 4U);
+  ASSERT_EQ(points.size(), 4U);
+  const double start = std::log(lines[0].x.front()) - 1.0;
+  for (std::size_t k = 0; k < lines[0].x.size(); ++k) {
+    const double away = (std::log(lines[0].x[k]) - start) / 1.6;
+    EXPECT_NEAR(lines[0].y[k], 3.0 * std::exp(-0.5 * away * away), 1e-9);
+    EXPECT_NEAR(bands[0].upper[k] - lines[0].y[k], 1.959964 * 0.2 * 3.0, 2e-3);
+    EXPECT_NEAR(lines[0].y[k] - bands[0].lower[k], 1.959964 * 0.2 * 3.0, 2e-3);
+  }
+  const ImpactModel exact = with_exact_laws(a.fitted.model);
+  const std::vector<double> theta(a.fitted.theta.begin(),
+                                  a.fitted.theta.begin() + std::ptrdiff_t(exact.slots.size()));
+  const Observation& first = a.fitted.data.points.front();
+  const double square =
+      predict(exact, theta, 0, first.diameter, first.velocity, false).restitution_squared;
+  const double e = first.restitution;
+  EXPECT_EQ(points[0].x[0], first.velocity);
+  EXPECT_NEAR(points[0].y[0], 100.0 * (square - e * e) / (1.0 - square), 1e-9);
+  EXPECT_NEAR(points[0].upper[0] - points[0].y[0], 100.0 * 2.0 * e * first.sd / (1.0 - square),
+              1e-9);
+  for (const plot::Points& one : points) {
+    for (const double y : one.y) EXPECT_TRUE(inside(y, shown.y));
+  }
+}
+
+TEST(LawErrorFigures, AreMissingWhereNoErrorIsSeen) {
+  Analysis a = with_wrong_laws(0.04);
+  a.fitted.laws[0].weight = 0.2;
+  a.fitted.laws[1].weight = 0.8;
+  EXPECT_TRUE(law_error_figures(a).empty());
+  EXPECT_TRUE(law_error_figures(sample::four_diameters()).empty());
 }
 
 }  // namespace

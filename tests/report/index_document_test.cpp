@@ -67,25 +67,25 @@ TEST(Index, ShowsCaptureVelocitiesAndFreeParameters) {
   EXPECT_EQ(table.rows.size(), 4U + 2U) << "sizes, free parameters";
 }
 
-TEST(Index, SaysTheVerdictOfTheDiagnosisInWordsAndByASign) {
-  const auto remark = [](const std::string& diagnosis) {
-    const Document index = index_document({{"a.html", "{}", diagnosis, "a/diagnosis.html"}});
+TEST(Index, SaysTheVerdictOnTheModelInWordsAndByASign) {
+  const auto remark = [](const std::string& verdict, const std::string& diagnosis = "") {
+    const std::string fit =
+        R"({"model_verdict": {"verdict": ")" + verdict + R"(", "text": "It fits."}})";
+    const Document index = index_document({{"a.html", fit, diagnosis, "a/diagnosis.html"}});
     for (const Block& block : index.sections.at(0).blocks) {
       if (const auto* found = std::get_if<Remark>(&block.content())) return *found;
     }
     return Remark{};
   };
-  const Remark named = remark(R"({"verdict": "cause_named", "headline": "It misses: a < b"})");
-  EXPECT_EQ(named.look, "cause_named");
+  const Remark alone = remark("fits");
+  EXPECT_EQ(plain_text(alone.text), "It fits.");
+  const Remark named = remark("does_not_fit", R"({"headline": "It misses: a < b"})");
+  EXPECT_EQ(named.look, "does_not_fit");
   EXPECT_THAT(named.text.runs(),
               ElementsAre(recoil::Run{RunKind::link, "It misses: a < b", "a/diagnosis.html"}));
-  const Remark rivals = remark(R"({"verdict": "not_separable"})");
-  EXPECT_EQ(plain_text(rivals.text), "not separable");
-  const std::set<std::string> signs = {named.sign, rivals.sign,
-                                       remark(R"({"verdict": "adequate"})").sign,
-                                       remark(R"({"verdict": "unexplained"})").sign};
+  const std::set<std::string> signs = {alone.sign, named.sign, remark("fits_within_law_error").sign,
+                                       remark("untested").sign};
   EXPECT_EQ(signs.size(), 4U) << "the verdicts have different signs";
-  EXPECT_TRUE(remark("").sign.empty());
 }
 
 TEST(Index, RefusesWhatIsNotAFit) {

@@ -43,11 +43,7 @@ TEST(FitWarnings, OneForEveryFact) {
               f.data.noise.sd_set_aside = 5;
             }),
             1U);
-  EXPECT_EQ(warnings_after([](FitResult& f) {
-              f.data.points.resize(3);
-              f.data.points[1].events = 6;
-            }),
-            1U)
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.data.noise.sd_of_few = 3; }), 1U)
       << "standard deviations of few impacts";
   EXPECT_EQ(warnings_after([](FitResult& f) {
               f.data.points.resize(4);

@@ -94,10 +94,20 @@ TEST(Words, OfAnImpossibleParameter) {
 TEST(Words, EveryHindranceIsTold) {
   Analysis analysis = sample::four_diameters();
   expect_words_for_all<Hindrance>([&](Hindrance hindrance) {
-    analysis.uncertainty.identifiability.parameter[0] = {false, hindrance, 0.4, 2.0, false};
+    analysis.uncertainty.identifiability.parameter[0] = {false, hindrance, 0.4, 2.0};
     return plain_text(identifiability_words(analysis.fitted, analysis.uncertainty));
   });
-  analysis.uncertainty.identifiability.parameter.clear();
+  Identifiability& found = analysis.uncertainty.identifiability;
+  found.parameter[0] = {false, Hindrance::large_error, 0.284, 0.3};
+  const auto text = [&] {
+    return plain_text(identifiability_words(analysis.fitted, analysis.uncertainty));
+  };
+  EXPECT_THAT(text(), testing::HasSubstr("C_H is known to 28 %"));
+  EXPECT_THAT(text(), testing::Not(testing::HasSubstr("well determined")));
+  found.rejected = true;
+  EXPECT_THAT(text(),
+              testing::StartsWith("the errors hold only if the model does, and it does not fit; "));
+  found.parameter.clear();
   EXPECT_TRUE(identifiability_words(analysis.fitted, analysis.uncertainty).empty());
 }
 

@@ -29,6 +29,12 @@ std::string test_name(const testing::TestParamInfo<Question>& info) {
 
 class Bar : public testing::TestWithParam<Question> {};
 
+/// Is the effect among the causes that are listed beside an error of the laws?
+bool is_hinted(const Answered& answer) {
+  const std::string& effect = answer.order.effects.front();
+  return std::find(answer.hinted.begin(), answer.hinted.end(), effect) != answer.hinted.end();
+}
+
 TEST_P(Bar, TheAnswerIsTrue) {
   const Question& question = GetParam();
   const Answered answer = ask(question.order, RECOIL_BINARY, {});
@@ -38,6 +44,11 @@ TEST_P(Bar, TheAnswerIsTrue) {
   for (const std::string& id : answer.named) listed += " " + id;
   for (const std::string& id : answer.rivals) listed += " (" + id + ")";
   const Mark mark = mark_of(answer);
+  if (question.order.other_law && mark == Mark::nothing) {
+    // An error of the laws competes with a law that the catalogue does not have.
+    EXPECT_TRUE(is_hinted(answer)) << answer.verdict << listed;
+    return;
+  }
   EXPECT_NE(std::find(question.right.begin(), question.right.end(), mark), question.right.end())
       << answer.verdict << listed << ", p = " << answer.p_value;
   if (!has_several_diameters(question.order.design)) {

@@ -100,7 +100,7 @@ TEST(Budget, SplitsStatedErrorsOfVelocityAndDiameter) {
   ASSERT_TRUE(fitted.usable);
   const ErrorBudget budget = parameter_budgets(fitted)[1];
   EXPECT_GT(part(budget, fitted.model, "velocity"), 0.0);
-  EXPECT_GT(part(budget, fitted.model, "diameter"), 0.0);
+  EXPECT_GT(part(budget, fitted.model, "batch_diameter"), 0.0);
   EXPECT_NEAR(sum_of_squares(budget) / std::pow(fitted.std_error[1], 2), 1.0, 1e-10);
 }
 

@@ -9,7 +9,6 @@
 
 #include "analysis/analysis.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/predictor.hpp"
 #include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -51,6 +50,7 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
 /// The three rows of a shipped fit with f0 as `f0` says.
 std::vector<ComparisonRow> rows_of_molybdenum(bool free, std::optional<double> f0) {
   FitInputs inputs = load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml");
+  inputs.spec.uncertainty.materials = Materials::propagated;
   for (ParameterSpec& parameter : inputs.spec.parameters) {
     if (!parameter.parameter->is_adhesion()) continue;
     parameter.free = free;
@@ -91,6 +91,21 @@ TEST(TwoPoints, AreComparedWithAFitOfTheSameF0) {
     EXPECT_LT(*rows[1].rmse, *rows[0].rmse);
     EXPECT_LT(*rows[2].rmse, *rows[1].rmse);
     EXPECT_TRUE(rows[1].held_out_rmse && rows[2].held_out_rmse);
+    EXPECT_FALSE(rows[0].headline);
+    EXPECT_EQ(rows[1].headline, !c.free);
+    EXPECT_EQ(rows[2].headline, c.free);
+  }
+}
+
+TEST(TwoPoints, TheHeadlineIsARowOfItsOwnIfTheOthersHaveExactLaws) {
+  const Analysis a = analyse_fit(load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml"));
+  ASSERT_FALSE(a.fitted.laws.empty());
+  const UncertaintyResult assessed = assess_uncertainty(a.fitted, a.datasets, small(0));
+  const std::vector<ComparisonRow>& rows = assessed.two_point.front().rows;
+  ASSERT_EQ(rows.size(), 4U);
+  for (const ComparisonRow& row : rows) {
+    EXPECT_EQ(row.headline, row.row == CalibrationKind::fit);
+    EXPECT_EQ(row.headline, row.theta == a.fitted.theta);
   }
 }
 
@@ -147,47 +162,54 @@ TEST(Capture, SaysWhetherAParameterRestsOnItsBound) {
   }
 }
 
-/// The relative change of the loss 1 - e^2 per unit of a slot, largest over the points, by
-/// differences.
-double largest_effect(const Case& c, std::size_t slot) {
-  double largest = 0.0;
-  for (const Observation& point : c.data.points) {
-    const auto loss = [&](double factor) {
-      std::vector<double> theta = c.fitted.theta;
-      theta[slot] *= factor;
-      return 1.0 - predict(c.fitted.model, theta, 0, point.diameter, point.velocity, false)
-                       .restitution_squared;
-    };
-    constexpr double h = 1e-3;
-    const double slope = (loss(1.0 + h) - loss(1.0 - h)) / (2.0 * h * c.fitted.theta[slot]);
-    largest = std::max(largest, std::abs(slope) / loss(1.0));
-  }
-  return largest;
+/// The recommended interval, moved to estimate -+ half.
+void set_interval(UncertaintyResult& result, std::size_t slot, double lower, double upper) {
+  Interval& interval = result.intervals[slot][result.intervals[slot].recommended];
+  interval.lower = lower;
+  interval.upper = upper;
 }
 
-TEST(Identifiability, AsksForAnErrorBelowATenthOfTheLossScale) {
+TEST(Identifiability, AsksForAnIntervalWithinATenthOfTheValue) {
   Case c = noisy_case();
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  ASSERT_TRUE(c.fitted.data.noise.sd_stated);
   for (const std::size_t slot : {std::size_t{0}, std::size_t{1}}) {
-    const double scale = std::max(1.0 / largest_effect(c, slot), c.fitted.theta[slot]);
+    const double value = c.fitted.theta[slot];
     for (const double part : {0.099, 0.101}) {
-      c.fitted.std_error[slot] = part * scale;
+      // 1.959964: the normal quantile of 97.5 %
+      set_interval(result, slot, value * (1.0 - 1.959964 * part), value * (1.0 + 1.959964 * part));
       const Identifiability verdict =
-          judge_identifiability(c.fitted, result.intervals, result.capture);
+          judge_identifiability(c.fitted, result.intervals, result.capture, 0.95);
       EXPECT_EQ(verdict.parameter[slot].identifiable, part < 0.1) << slot;
+      EXPECT_NEAR(verdict.parameter[slot].relative_error, part, 1e-6);
     }
   }
 }
 
-TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
+TEST(Identifiability, ALimitIsNotWellDetermined) {
   Case c = noisy_case();
   UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
-  c.fitted.std_error[0] = 1e-6;
-  result.intervals[0][IntervalKind::profile].lower = 0.0;
-  const Identifiability verdict = judge_identifiability(c.fitted, result.intervals, result.capture);
-  EXPECT_TRUE(verdict.parameter[0].identifiable);
-  EXPECT_TRUE(verdict.parameter[0].upper_limit);
-  EXPECT_FALSE(verdict.parameter[1].upper_limit);
+  set_interval(result, 0, 0.0, 1.001 * c.fitted.theta[0]);
+  const Identifiability verdict =
+      judge_identifiability(c.fitted, result.intervals, result.capture, 0.95);
+  EXPECT_FALSE(verdict.parameter[0].identifiable);
+  EXPECT_EQ(verdict.parameter[0].hindrance, Hindrance::consistent_with_zero);
+}
+
+TEST(Identifiability, NothingIsWellDeterminedByAModelThatDoesNotFit) {
+  Case c = noisy_case();
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  for (const std::size_t slot : {std::size_t{0}, std::size_t{1}}) {
+    set_interval(result, slot, 0.99 * c.fitted.theta[slot], 1.01 * c.fitted.theta[slot]);
+  }
+  for (const double p_value : {0.5, 1e-6}) {
+    c.fitted.p_value = p_value;
+    const Identifiability verdict =
+        judge_identifiability(c.fitted, result.intervals, result.capture, 0.95);
+    EXPECT_EQ(verdict.rejected, p_value < 0.01);
+    EXPECT_EQ(verdict.parameter[0].identifiable, p_value > 0.01);
+    EXPECT_EQ(verdict.verdict == IdentifiabilityVerdict::identifiable, p_value > 0.01);
+  }
 }
 
 TEST(Identifiability, ComparesEveryImpactWithTheCaptureOfItsOwnSize) {
@@ -205,7 +227,7 @@ TEST(Identifiability, ComparesEveryImpactWithTheCaptureOfItsOwnSize) {
       at.found = true;
       at.value = slowest / (&at == &result.capture.front() ? first : others);
     }
-    return judge_identifiability(c.fitted, result.intervals, result.capture).slowest;
+    return judge_identifiability(c.fitted, result.intervals, result.capture, 0.95).slowest;
   };
   ASSERT_GT(result.capture.size(), 1U);
   ASSERT_TRUE(slowest_over(4.0, 6.0));
@@ -220,7 +242,7 @@ TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
   for (const double spread : {0.15, 0.3}) {
     c.fitted.weights.noise.event_spread = spread;
     const Identifiability verdict =
-        judge_identifiability(c.fitted, result.intervals, result.capture);
+        judge_identifiability(c.fitted, result.intervals, result.capture, 0.95);
     EXPECT_EQ(verdict.parameter[0].identifiable, spread < 0.2);
     EXPECT_EQ(verdict.parameter[0].hindrance == Hindrance::wide_spread, spread > 0.2);
     EXPECT_EQ(verdict.event_spread, spread);

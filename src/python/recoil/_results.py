@@ -169,6 +169,7 @@ class FitResult(_Reported):
     model: Facts
     parameters: Facts
     derived: Facts
+    model_verdict: Facts
     goodness: Facts
     identifiability: Facts
     validity: list[Facts]
@@ -433,6 +434,7 @@ class Diagnosis(_Reported):
     """The systematic errors of a model and their causes. The keys of diagnosis.json are attributes
     (``verdict``, ``named``, ``candidates``); docs/diagnosis-json.md lists them."""
 
+    model_verdict: Facts
     verdict: str
     headline: str
     text: str

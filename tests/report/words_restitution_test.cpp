@@ -1,0 +1,91 @@
+// What the line below the headline says of e, with and without adhesion.
+#include "report/words_restitution.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "example_analysis.hpp"
+#include "report/format.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct Row {
+  std::size_t series;
+  double diameter_um, velocity, restitution;
+};
+
+Dataset dataset_of(const std::vector<Row>& rows) {
+  Dataset data;
+  data.id = "made";
+  data.series = {"a", "b"};
+  for (const Row& row : rows) {
+    ImpactPoint point;
+    point.series = row.series;
+    point.diameter = row.diameter_um * 1e-6;
+    point.incident_velocity = row.velocity;
+    point.restitution = row.restitution;
+    point.restitution_sd = 0.01;
+    data.points.push_back(point);
+  }
+  return data;
+}
+
+std::string text_of(const Dataset& data, bool adhesion) {
+  ImpactModel model = sample::four_diameters().fitted.model;
+  EXPECT_TRUE(adheres_anywhere(model));
+  if (!adhesion) {
+    model.slots[model.slot_adhesion.front()].free = false;
+    model.contacts.front().adhesion_force = 0.0;
+    EXPECT_FALSE(adheres_anywhere(model));
+  }
+  return plain_text(join(restitution_sentences({data}, model), " "));
+}
+
+TEST(RestitutionWords, SayWhatWasMeasuredWithAdhesion) {
+  Dataset data = dataset_of({{0, 2.0, 1.318, 0.3669},
+                             {0, 2.0, 1.0, 0.0},
+                             {0, 2.0, 9.947, 0.868},
+                             {1, 5.0, 0.4, 0.95},
+                             {1, 5.0, 8.0, 0.90}});
+  data.points[1].captured = 1;
+  const std::string text = text_of(data, true);
+  EXPECT_EQ(text,
+            "e rises from 0.37 at 1.3 m/s to 0.87 at 9.9 m/s (2 um); falls from 0.95 at 0.4 m/s to "
+            "0.90 at 8 m/s (5 um).");
+  data.points.push_back(data.points[2]);
+  data.points.back().incident_velocity = 27.353;
+  data.points.back().restitution = 0.8279;
+  EXPECT_THAT(text_of(data, true),
+              HasSubstr("to 0.87 at 9.9 m/s and falls to 0.83 at 27 m/s (2 um)"));
+}
+
+TEST(RestitutionWords, ShowTheSmallestAndTheLargestOfManySizes) {
+  std::vector<Row> rows;
+  for (const double um : {1.0, 2.0, 3.0, 4.0, 5.0}) {
+    rows.push_back({0, um, 1.0, 0.5});
+    rows.push_back({0, um, 3.0, 0.8});
+  }
+  EXPECT_THAT(text_of(dataset_of(rows), true),
+              AllOf(HasSubstr("(1 um)"), HasSubstr("(5 um); smallest and largest of 5 sizes."),
+                    Not(HasSubstr("(3 um)"))));
+}
+
+TEST(RestitutionWords, CallSizesSizesAndSayWhichErrorIsMissing) {
+  Dataset data = dataset_of(
+      {{0, 2.0, 1.0, 0.80}, {0, 2.0, 3.0, 0.81}, {1, 5.0, 1.0, 0.70}, {1, 5.0, 3.0, 0.70}});
+  EXPECT_THAT(text_of(data, false),
+              AllOf(HasSubstr("Mean e: a 2 um 0.805"), HasSubstr("b 5 um 0.700"),
+                    Not(HasSubstr("differ")), Not(HasSubstr("no error"))));
+  data.points[2].restitution_sd.reset();
+  EXPECT_THAT(text_of(data, false),
+              HasSubstr("1 of 4 points states no error and counts with the median of the others."));
+  for (ImpactPoint& point : data.points) point.diameter = 2e-6;
+  EXPECT_THAT(text_of(data, false), HasSubstr("The series differ in e"));
+}
+
+}  // namespace
+}  // namespace recoil

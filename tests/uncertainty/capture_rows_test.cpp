@@ -1,0 +1,120 @@
+// No interval of V* reaches a velocity that a row excludes. The truth comes from the simulator of
+// the reconstructions; the deviance of a rebound at or below capture is written out here.
+#include "uncertainty/capture_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "estimate/law_average.hpp"
+#include "support/one_size.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/intervals.hpp"
+
+namespace recoil {
+namespace {
+
+/// Rebounds at these velocities [V*] and a capture at each of those, e with the error sd.
+Dataset measured(const std::vector<double>& rebounds, const std::vector<double>& captures,
+                 double sd, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const double capture = true_capture_velocity(one_size::truth(), one_size::diameter);
+  Dataset data = one_size::design(2);
+  data.points.clear();
+  const auto add = [&](double velocity, bool captured) {
+    ImpactPoint point;
+    point.diameter = one_size::diameter;
+    point.incident_velocity = capture * velocity;
+    if (captured) point.captured = point.events = 3;  // single impacts would show their spread
+    if (!captured) {
+      point.restitution = std::max(
+          0.01, true_restitution(one_size::truth(), point.diameter, point.incident_velocity) +
+                    sd * normal(random));
+    }
+    point.restitution_sd = sd;
+    data.points.push_back(point);
+  };
+  for (const double velocity : captures) add(velocity, true);
+  for (const double velocity : rebounds) add(velocity, false);
+  return data;
+}
+
+TEST(CaptureRows, NoIntervalContainsWhatARowExcludes) {
+  const std::vector<std::vector<double>> rebounds = {
+      {1.1, 2.0, 5.0, 15.0}, {1.3, 1.9, 3.2, 5.5, 9.5}, {1.02, 1.05, 8.0, 30.0}, {6.0, 12.0, 20.0}};
+  const std::vector<std::vector<double>> captures = {{}, {0.9}, {0.6, 0.8}};
+  const double capture = true_capture_velocity(one_size::truth(), one_size::diameter);
+  int cut = 0;
+  for (const auto& above : rebounds) {
+    for (const auto& below : captures) {
+      for (const double sd : {0.005, 0.03, 0.1}) {
+        for (unsigned seed = 1; seed <= 3; ++seed) {
+          const std::vector<Dataset> datasets = {measured(above, below, sd, seed)};
+          const FitResult fitted =
+              fit_over_laws(make_model(synthetic::spec(), datasets), gather(datasets));
+          if (!fitted.usable) continue;
+          const auto alternatives = fit_alternatives(fitted);
+          const CaptureEstimate v = capture_estimates(alternatives, 0.95, datasets).front();
+          const Interval& interval = v[CaptureIntervalKind::delta];
+          if (!interval.available()) continue;
+          EXPECT_LT(*interval.lower, v.value);
+          EXPECT_GT(*interval.upper, v.value);
+          const double most =
+              std::pow(student_quantile(0.975, fitted.quantile_dof) * fitted.noise_scale, 2);
+          for (const Observation& point : fitted.data.points) {
+            if (point.captured > 0) {
+              // The likelihood of a capture under the true curve, moved so that V* is the lower
+              // end: the square of e has the error sqrt(2) sd^2. The fitted curve is about as
+              // steep.
+              const double e = true_restitution(one_size::truth(), point.diameter,
+                                                point.velocity * capture / *interval.lower);
+              const double deviance =
+                  -2.0 *
+                  std::log(0.5 * std::erfc(e * e / (std::sqrt(2.0) * sd * sd) / std::sqrt(2.0)));
+              if (point.velocity < v.value) {
+                EXPECT_LE(deviance, 1.5 * most) << point.velocity;
+              }
+            } else if (point.velocity < (1.0 - 1e-5) * *interval.upper &&
+                       point.velocity > v.value) {
+              // e^2 - sd^2 over its standard deviation at a true e of 0 (no other errors).
+              const double variance = sd * sd;
+              const double e = point.restitution;
+              const double at_zero = (e * e - variance) / (sd * std::sqrt(e * e + 2.0 * variance));
+              EXPECT_LE(at_zero * std::abs(at_zero), most)
+                  << "rebound at " << point.velocity << ", upper end " << *interval.upper;
+              ++cut;
+            }
+          }
+        }
+      }
+    }
+  }
+  std::printf("%d rows below an upper end that do not exclude it\n", cut);
+}
+
+/// A wide interval is cut at the slowest rebound and the fastest capture, whatever its kind.
+TEST(CaptureRows, CutAtTheSlowestRebound) {
+  const std::vector<Dataset> datasets = {measured({1.3, 1.9, 3.2, 5.5, 9.5}, {0.6, 0.8}, 0.01, 1)};
+  const FitResult fitted = one_size::fit_to(datasets.front());
+  ASSERT_TRUE(fitted.usable);
+  const auto alternatives = fit_alternatives(fitted);
+  const CaptureEstimate v = capture_estimates(alternatives, 0.95, datasets).front();
+  Interval wide;
+  wide.lower = 0.1 * v.value;
+  wide.upper = 10.0 * v.value;
+  const Interval cut = cut_by_rows(wide, fitted, v, 0.95);
+  EXPECT_NEAR(*cut.upper / datasets[0].points[2].incident_velocity, 1.0, 1e-3);
+  EXPECT_NEAR(*cut.lower / datasets[0].points[1].incident_velocity, 1.0, 0.02);
+  // What no row contradicts stays.
+  Interval narrow = wide;
+  narrow.lower = 0.95 * v.value;
+  narrow.upper = 1.05 * v.value;
+  const Interval same = cut_by_rows(narrow, fitted, v, 0.95);
+  EXPECT_EQ(*same.lower, *narrow.lower);
+  EXPECT_EQ(*same.upper, *narrow.upper);
+}
+
+}  // namespace
+}  // namespace recoil
