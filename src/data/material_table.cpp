@@ -16,6 +16,10 @@ namespace {
 using units::GPa;
 constexpr double MPa = 1e-3 * GPa;
 
+constexpr std::string_view stainless_source =
+    "Callister, W. D. & Rethwisch, D. G. (2008), tables B.1 to B.3; yield strength: the minimum in "
+    "the ASTM specifications of annealed wrought products, such as A 213";
+
 constexpr TabledMaterial materials[] = {
     {"alumina", "99.9 % pure", 3980.0, 380.0 * GPa, 380.0 * GPa, 0.22},
     {"aluminium", "alloy 6061, T6", 2700.0, 69.0 * GPa, 69.0 * GPa, 0.33, 0.01, 276.0 * MPa},
@@ -28,20 +32,31 @@ constexpr TabledMaterial materials[] = {
                "whose K and W_A these constants give; density after Pasha, M. et al. (2014). "
                "Granular Matter, doi 10.1007/s10035-013-0476-y"},
     {"borosilicate", "Pyrex glass", 2230.0, 70.0 * GPa, 70.0 * GPa, 0.20},
-    {"brass", "C26000, annealed", 8530.0, 110.0 * GPa, 110.0 * GPa, 0.35, 0.01, 112.5 * MPa},
+    {.name = "brass",
+     .what = "C26000, annealed",
+     .density = 8530.0,
+     .lowest_modulus = 110.0 * GPa,
+     .highest_modulus = 110.0 * GPa,
+     .poisson_ratio = 0.35,
+     .yield_strength = 110.0 * MPa,
+     .source =
+         "Callister, W. D. & Rethwisch, D. G. (2008), tables B.1 to B.3; yield strength: the "
+         "middle of 75 MPa (table 7.2 of a later edition) and 145 MPa (Olin Brass, data sheet)"},
     {"concrete", "of all strengths", 2400.0, 25.4 * GPa, 36.6 * GPa, 0.20},
     {"copper", "C11000, hot rolled", 8890.0, 115.0 * GPa, 115.0 * GPa, 0.33, 0.01, 69.0 * MPa},
     {"fused-silica", "", 2200.0, 73.0 * GPa, 73.0 * GPa, 0.17},
     {"glass", "soda-lime", 2500.0, 69.0 * GPa, 69.0 * GPa, 0.23},
     {.name = "ice",
      .what = "polycrystal at 257 K",
-     .density = 917.0,
+     .density = 920.0,
      .lowest_modulus = 9.33 * GPa,
      .highest_modulus = 9.33 * GPa,
      .poisson_ratio = 0.325,
      .source = "Gammon, P. H., Kiefte, H., Clouter, M. J. & Denner, W. W. (1983). J. Glaciol. 29, "
-               "433-460; density after the CRC Handbook of Chemistry and Physics"},
-    {"molybdenum", "commercially pure", 10220.0, 320.0 * GPa, 320.0 * GPa, 0.32, 0.01, 500.0 * MPa},
+               "433-460; density at 257 K after the CRC Handbook of Chemistry and Physics, "
+               "properties of ice and supercooled water"},
+    {"molybdenum", "commercially pure, no state named", 10220.0, 320.0 * GPa, 320.0 * GPa, 0.32,
+     0.01, 500.0 * MPa},
     {"nickel", "alloy 200, annealed", 8890.0, 204.0 * GPa, 204.0 * GPa, 0.31, 0.01, 148.0 * MPa},
     {"nylon", "6,6, dry to moist", 1140.0, 1.59 * GPa, 3.79 * GPa, 0.39, 0.01, 63.8 * MPa},
     {"pmma", "acrylic glass", 1190.0, 2.24 * GPa, 3.24 * GPa, 0.405, 0.02, 63.45 * MPa},
@@ -50,20 +65,35 @@ constexpr TabledMaterial materials[] = {
     {"polystyrene", "", 1050.0, 2.28 * GPa, 3.28 * GPa, 0.33, 0.01, 47.0 * MPa},
     {"ptfe", "", 2170.0, 0.40 * GPa, 0.55 * GPa, 0.46, 0.01, 14.5 * MPa},
     {.name = "rubber",
-     .what = "natural, unfilled",
-     .density = 925.0,
+     .what = "natural to styrene-butadiene, vulcanised",
+     .density = 950.0,
      .lowest_modulus = 1.5 * MPa,
-     .highest_modulus = 2.5 * MPa,
+     .highest_modulus = 10.0 * MPa,
      .poisson_ratio = 0.49,
-     .source = "Ashby, M. F. (2011). Materials Selection in Mechanical Design, 4th ed., "
-               "Butterworth-Heinemann, appendix A; rubber is almost incompressible"},
+     .source = "MatWeb, data sheet of natural rubber, vulcanized (density; the lowest Young's "
+               "modulus, three times the shear modulus); Callister, W. D. & Rethwisch, D. G. "
+               "(2008), table B.2 (the highest, of styrene-butadiene); rubber is almost "
+               "incompressible"},
     {"silicon", "single crystal, along [100]", 2330.0, 129.0 * GPa, 129.0 * GPa, 0.28},
     {"silicon-carbide", "sintered", 3200.0, 207.0 * GPa, 483.0 * GPa, 0.16},
-    {"stainless", "alloy 304, annealed", 8000.0, 193.0 * GPa, 193.0 * GPa, 0.30, 0.01, 205.0 * MPa},
-    {"stainless-316", "alloy 316, annealed", 8000.0, 193.0 * GPa, 193.0 * GPa, 0.30, 0.01,
-     205.0 * MPa},
-    {"stainless-440", "alloy 440A, of balls, tempered", 7800.0, 200.0 * GPa, 200.0 * GPa, 0.30,
-     0.01, 1650.0 * MPa},
+    {.name = "stainless",
+     .what = "alloy 304, annealed",
+     .density = 8000.0,
+     .lowest_modulus = 193.0 * GPa,
+     .highest_modulus = 193.0 * GPa,
+     .poisson_ratio = 0.30,
+     .yield_strength = 205.0 * MPa,
+     .source = stainless_source},
+    {.name = "stainless-316",
+     .what = "alloy 316, annealed",
+     .density = 8000.0,
+     .lowest_modulus = 193.0 * GPa,
+     .highest_modulus = 193.0 * GPa,
+     .poisson_ratio = 0.30,
+     .yield_strength = 205.0 * MPa,
+     .source = stainless_source},
+    {"stainless-440", "alloy 440A, of balls, tempered at 315 C", 7800.0, 200.0 * GPa, 200.0 * GPa,
+     0.30, 0.01, 1650.0 * MPa},
     {"steel", "alloy 4140, normalised", 7850.0, 207.0 * GPa, 207.0 * GPa, 0.30, 0.01, 655.0 * MPa},
     {"titanium", "Ti-6Al-4V, annealed", 4430.0, 114.0 * GPa, 114.0 * GPa, 0.34, 0.01, 830.0 * MPa},
     {"zirconia", "3 mol% yttria", 6000.0, 205.0 * GPa, 205.0 * GPa, 0.31},

@@ -9,8 +9,8 @@
 namespace recoil {
 
 /// Callister, W. D. & Rethwisch, D. G. (2008), tables B.1 (density), B.2 (Young's modulus), B.3
-/// (Poisson's ratio) and B.4 (yield strength, the middle of a range), which compile the ASM
-/// Handbooks and manufacturers' data.
+/// (Poisson's ratio) and B.4 (yield strength: the middle of a range; of titanium the stated
+/// minimum), which compile the ASM Handbooks and manufacturers' data.
 inline constexpr std::string_view tabled_materials_source =
     "Callister, W. D. & Rethwisch, D. G. (2008). Fundamentals of Materials Science and "
     "Engineering, 3rd ed., Wiley, tables B.1 to B.4";

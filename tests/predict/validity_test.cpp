@@ -130,7 +130,7 @@ TEST(Validity, AStatedStrengthReplacesTheEstimate) {
 }
 
 /// A dry ball of 304 on 304: p_0 = (2 E* / pi) (a / R), (a / R)^5 = (5 pi / 4) rho V^2 / E*,
-/// is 3.34 GPa at 1 m/s. The annealed alloy yields from 1.6 * 205 MPa on (Callister's table B.4).
+/// is 3.34 GPa at 1 m/s. The annealed alloy yields from 1.6 * 205 MPa on (ASTM's minimum).
 TEST(Validity, AnAnnealedBallYieldsAtOneMetrePerSecond) {
   const recoil::Material named = {.name = "stainless",
                                   .density = 8000.0,
