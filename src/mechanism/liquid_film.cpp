@@ -33,10 +33,13 @@ Mechanism liquid_film() {
           "of the solid contact, e = e_dry (1 - St_c / St), St_c = (1 + 1 / e_dry) ln(delta / h); "
           "the sphere is captured at St <= St_c. Between two spheres r and m are the reduced ones",
       .source =
-          "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, 479-497; "
-          "Gollwitzer, F., Rehberg, I., Kruelle, C. A. & Huang, K. (2012), Phys. Rev. E 86, 011303 "
-          "(e of wet spheres over St). The film is thin and does not cavitate on the way out; "
-          "its inertia and its surface tension are neglected",
+          "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech., doi "
+          "10.1017/S0022112086002392; Davis, R. H., Rager, D. A. & Good, B. T. (2002), J. Fluid "
+          "Mech., doi 10.1017/S0022112002001489 (rebound from coated surfaces over St / St_c); "
+          "Gollwitzer, F., Rehberg, I., Kruelle, C. A. & Huang, K. (2012), arXiv:1202.1750, and "
+          "Mueller, T. & Huang, K. (2016), arXiv:1601.07032 (e of wet spheres is linear in 1 / "
+          "St). The film is thin and does not cavitate on the way out; its inertia and its "
+          "surface tension are neglected",
       .fingerprint = "1 - e^2 ~ V^(-1) d^(-1), V* ~ d^(-1), independent of the target; vanishes "
                      "on dry bodies",
       .parameters = {{.name = "film_viscosity",
