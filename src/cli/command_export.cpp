@@ -73,7 +73,7 @@ Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const std::strin
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values = take_fitted_values(out.model, inputs.datasets, fit, file);
   out.theta = out.model.initial();
-  out.source.parameters = "from " + file;
+  out.source.parameters = origin_words(fit, file);
   set_values(out, [&](std::size_t s) { return values[s].std_error; });
   const Observations data = gather(inputs.datasets, inputs.spec);
   out.source.rmse = root_mean_square(out.model, out.theta, data, first_weights(data));
