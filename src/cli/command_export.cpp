@@ -35,7 +35,8 @@ void set_values(Fitted& fitted, const StandardError& std_error_of) {
   for (std::size_t s = 0; s < fitted.theta.size(); ++s) {
     const ParameterSlot& slot = fitted.model.slots[s];
     fitted.source.values.push_back({slot.label(), std::string(slot.parameter->unit),
-                                    fitted.theta[s], slot.free, std_error_of(s)});
+                                    acting_value(fitted.model, fitted.theta, s), slot.free,
+                                    std_error_of(s)});
   }
 }
 
