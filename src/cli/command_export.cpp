@@ -35,7 +35,8 @@ void set_values(Fitted& fitted, const StandardError& std_error_of) {
   for (std::size_t s = 0; s < fitted.theta.size(); ++s) {
     const ParameterSlot& slot = fitted.model.slots[s];
     fitted.source.values.push_back({slot.label(), std::string(slot.parameter->unit),
-                                    fitted.theta[s], slot.free, std_error_of(s)});
+                                    acting_value(fitted.model, fitted.theta, s), slot.free,
+                                    std_error_of(s)});
   }
 }
 
@@ -73,7 +74,7 @@ Fitted read_fitted_values(FitInputs inputs, const FitFile& fit, const std::strin
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values = take_fitted_values(out.model, inputs.datasets, fit, file);
   out.theta = out.model.initial();
-  out.source.parameters = "from " + file;
+  out.source.parameters = origin_words(fit, file);
   set_values(out, [&](std::size_t s) { return values[s].std_error; });
   const Observations data = gather(inputs.datasets, inputs.spec);
   out.source.rmse = root_mean_square(out.model, out.theta, data, first_weights(data));

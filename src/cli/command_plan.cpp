@@ -121,7 +121,7 @@ void run_plan(const GivenOptions& given) {
   std::string origin = "the initial values of the fit file";
   if (fitted) {
     take_fitted_values(model, datasets, *fitted, parameters);
-    origin = "from " + parameters;
+    origin = origin_words(*fitted, parameters);
   }
   for (const auto& [name, value] : given.assignments("--assume")) {
     assume(name, value, spec, model);

@@ -230,7 +230,7 @@ void simulate(const GivenOptions& given) {
   print_text("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
              parameters.empty()
                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
-                 : "from " + parameters,
+                 : origin_words(*fitted, parameters),
              start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);

@@ -113,6 +113,12 @@ FitSpec with_fitted_loss(FitSpec spec, const std::optional<FitFile>& fit) {
   return with_loss(std::move(spec), fit->options.loss);
 }
 
+std::string origin_words(const FitFile& fit, const std::string& path) {
+  const bool averaged = std::ranges::any_of(
+      fit.parameters, [](const auto& entry) { return entry.second.laws_exact.has_value(); });
+  return "from " + path + (averaged ? ", fitted with exact laws" : "");
+}
+
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
                                             const FitFile& fit, const std::string& path) {

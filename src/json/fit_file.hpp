@@ -599,7 +599,12 @@ std::optional<FitFile> read_parameters(const std::string& path);
 /// leaves the loss to the points.
 FitSpec with_fitted_loss(FitSpec spec, const std::optional<FitFile>& fit);
 
-/// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots].
+/// Where values come from: "from my-fit/fit.json", with "exact laws" if the fit was averaged over
+/// errors of the laws.
+std::string origin_words(const FitFile& fit, const std::string& path);
+
+/// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots]. If
+/// the fit was averaged over errors of the laws, they are those that fit best with exact laws.
 /// @param datasets the datasets of the fit file; the values must have been fitted to the same files
 /// @param path the file's name in messages
 /// @throws InputError if the values belong to another fit

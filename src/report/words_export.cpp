@@ -61,7 +61,7 @@ std::string parameter_words(const ExportedParameter& p) {
     return fmt::format("  {} = {:.6g} +/- {:.2g}{}", p.label, p.value, *p.std_error, unit);
   }
   return fmt::format("  {} = {:.6g}{} ({})", p.label, p.value, unit,
-                     p.free ? "no standard error" : "fixed");
+                     p.free ? "no standard error" : "not fitted");
 }
 
 /// The error of e(V) in the other program, and the treatment of captures.

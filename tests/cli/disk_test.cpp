@@ -53,6 +53,7 @@ const std::map<std::string, Words>& commands() {
 class Disk : public ::testing::TestWithParam<std::string> {
  protected:
   Disk() {
+    disk_.change("fit.toml", "seed = 1\n", "seed = 1\nmaterials = false\n");  // faster
     disk_.write("my.csv", "incident_velocity,restitution\n5,0.8\n9,0.85\n20,0.9\n");
     disk_.write("sizes.csv", "diameter,count\n3,10\n4,20\n5,10\n");
   }

@@ -397,6 +397,14 @@ TEST_F(Pairs, PagesHaveNoMissingNumber) {
   }
 }
 
+/// Powers of ten as a page shows them.
+std::string with_powers(const std::string& words) {
+  const std::string power = std::regex_replace(words, std::regex("e-0?([0-9])"), " × 10−$1");
+  return std::regex_replace(power, std::regex("([^0-9.])1 × 10"),
+                            "$01"
+                            "10");
+}
+
 /// The words of a page, without markup, with single spaces.
 std::string words_of_page(const std::string& html) {
   std::string words =
@@ -422,9 +430,13 @@ std::vector<Question> questions(int count) {
     for (const pairs::Feature& feature : pairs::features()) {
       question.choice[feature.name] = feature.forms[random() % feature.forms.size()];
     }
-    question.choice["materials"] = "averaged";
     question.choice["scheme"] = "parametric";
-    if (question.choice["law"] == "jkr" && random() % 4 != 0) question.choice["law"] = "ring";
+    const bool slow = random() % 8 == 0;
+    if (question.choice["law"] == "jkr" && !slow) question.choice["law"] = "ring";
+    const std::set<std::string> slow_mechanisms = {"survivor_bias", "adhesion_hysteresis"};
+    if (slow_mechanisms.contains(question.choice["mechanism"]) && !slow) {
+      question.choice["mechanism"] = "none";
+    }
     if (question.choice["sizes"] == "mixed") question.choice["sizes"] = "several";
     question.wrong_law = random() % 3 == 0;
     question.outlier = random() % 4 == 0;
@@ -481,9 +493,12 @@ TEST(OneVerdict, StandsInEveryPlace) {
     }
     const std::string verdict = plain_text(verdict_sentence(analysis->fitted));
     const auto says_it_once = [&](const std::string& place, std::string text) {
-      const std::size_t at = text.find(verdict);
+      text = with_powers(text);
+      const std::size_t at = text.find(with_powers(verdict));
       ASSERT_NE(at, std::string::npos) << place << ": " << verdict << "\n" << text.substr(0, 900);
-      text.erase(at, verdict.size());
+      text.erase(at, with_powers(verdict).size());
+      // Of other data: a point that lies far off is left out.
+      text = std::regex_replace(text, std::regex("Without it the model fits"), "");
       std::smatch found;
       EXPECT_FALSE(std::regex_search(text, found, another))
           << place << ": " << found.str() << " beside " << verdict;

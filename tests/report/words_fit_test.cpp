@@ -53,7 +53,11 @@ TEST(FitWarnings, OneForEveryFact) {
             1U)
       << "two settings and as many parameters";
   EXPECT_EQ(warnings_after([](FitResult& f) { f.weights_at_rest = false; }), 1U);
-  EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::exceeded; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.noise_verdict = NoiseVerdict::exceeded;
+              f.noise_scale = 1.3;
+            }),
+            1U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::doubtful; }), 0U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.strained_points = 3; }), 1U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.covariance.clear(); }), 1U);

@@ -55,7 +55,7 @@ double distance_from_uniform(std::vector<double> values) {
 }
 
 TEST(VerdictRates, PIsUniformWhereTheModelIsTrue) {
-  constexpr std::uint64_t sets = 500;
+  constexpr std::uint64_t sets = 100;  // 500 pass, too, in five minutes
   // Kolmogorov's distribution: exceeded by chance in 1 % (Massey 1951, J. Am. Stat. Assoc. 46, 68).
   const double critical = 1.628 / std::sqrt(static_cast<double>(sets));
   ASSERT_EQ(designs().size(), 3U);
@@ -83,6 +83,7 @@ TEST(VerdictRates, NoErrorOfExactLawsIsSeen) {
       if (laws->seen()) ++seen;
     }
   }
+  RecordProperty("seen", seen);
   EXPECT_LT(seen, 14);
 }
 

@@ -43,6 +43,7 @@ class BentSize {
 
  private:
   double bend(double velocity) const {
+    if (bent_.shape == BendShape::other_law) return 0.0;
     if (bent_.shape == BendShape::near_capture) {
       return sign_ * bent_.amplitude * std::min(4.0, std::pow(straight_ / velocity, 2));
     }
@@ -67,8 +68,12 @@ std::map<std::pair<std::size_t, double>, BentSize> sizes_of(
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const double diameter : distinct_diameters(datasets[d])) {
       const double phase = bent.shape == BendShape::by_size ? draw() : shared;
-      sizes.emplace(std::pair(d, diameter),
-                    BentSize(truth_at(model, theta, d), diameter, bent, phase, sign));
+      Truth truth = truth_at(model, theta, d);
+      if (bent.shape == BendShape::other_law) {
+        truth.law = TrueAdhesion::jkr;
+        truth.work = materials_under(model, theta, d).adhesion_energy;
+      }
+      sizes.emplace(std::pair(d, diameter), BentSize(truth, diameter, bent, phase, sign));
     }
   }
   return sizes;

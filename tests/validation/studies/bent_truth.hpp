@@ -15,9 +15,10 @@ enum class BendShape {
   velocity,      ///< a sin(1.3 ln V + p), the same for all sizes
   by_size,       ///< the same with another p for every size
   near_capture,  ///< +- a (V* / V)^2
+  other_law,     ///< no factor: the impacts are those of JKR, with the work of the materials
 };
 constexpr auto names_of_values(BendShape) {
-  return name_list("velocity", "by_size", "near_capture");
+  return name_list("velocity", "by_size", "near_capture", "other_law");
 }
 
 /// Data sets of the design of `datasets` in which the laws are wrong: the independent simulator

@@ -72,6 +72,7 @@ const std::vector<Study>& all_studies() {
       grid_study(10, "estimated", 200),
       grid_study(20, "estimated", 200),
       grid_study(60, "estimated", 200),
+      {"coverage-laws", "coverage-laws --datasets 200 --replicates 0"},
       {"coverage-noise", "coverage-noise --datasets 200 --replicates 39"},
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
