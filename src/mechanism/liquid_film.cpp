@@ -51,7 +51,7 @@ Mechanism liquid_film() {
                                     "water has 1e-3 Pa s, glycerol 1.4 Pa s, thick oils up to 1e3"},
                       .starts = {1e-3, 1e-1},
                       .stated_by = {{.condition = Condition::film_thickness, .zero_up_to = 0.0}}},
-                     {.name = "film_thickness",
+                     {.name = "film_depth",
                       .unit = "m",
                       .meaning = "delta, thickness of the film, on both bodies together",
                       .initial = 1e-6,

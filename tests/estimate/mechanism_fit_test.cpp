@@ -87,7 +87,7 @@ TEST(MechanismFit, FindsTheRelaxationTimeOfTheBulk) {
     const double B =
         2.0 * std::numbers::pi * std::sqrt(0.5 * d) * f0 * std::cbrt(d / 4.9e-6) / mass(d);
     const independent::Groups<double> groups{2e-3 * v, B / (A * scale), 0.03 * v,
-                                             1.5 * relaxation * v / scale};
+                                             1.5 * relaxation * v / scale, true};
     return independent::twice_energy_left(groups, false);
   })};
   const FitSpec spec = parsed("\"bulk_viscoelastic\"", "");
