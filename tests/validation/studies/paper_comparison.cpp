@@ -37,7 +37,6 @@ struct Fit {
 
   const TwoPointComparison& two_point() const { return a.uncertainty.two_point.at(0); }
   const Dataset& data() const { return a.datasets.at(0); }
-  double theta(const std::vector<std::size_t>& slot) const { return a.fitted.theta.at(slot.at(0)); }
 };
 
 /// Everything that is computed once for all figures.
@@ -135,34 +134,18 @@ Cell capture_cell(const Fit& fit) {
   return with_interval(capture->value, capture->interval, padded(3));
 }
 
-/// What all points say beside what two points say, for some fits.
-Table calibration_table(const Material& all, const std::vector<std::string>& keys) {
-  Table table;
-  table.caption = say("Two points against all points; errors are standard errors");
-  table.columns = {{"contact"},
-                   {say("{C_H}, two"), "s/m"},
-                   {say("{C_H}, all"), "s/m"},
-                   {say("{C_A}, two"), "s/m"},
-                   {say("{C_A}, all"), "s/m"},
-                   {say("rms of {e}, two")},
-                   {say("rms of {e}, all")},
-                   {say("{V*} [95 %]"), "m/s"}};
-  for (const std::string& key : keys) {
-    const Fit& fit = all.fit(key);
-    const ImpactModel& model = fit.a.fitted.model;
-    const TwoPointComparison& two = fit.two_point();
-    std::vector<Cell> row = {fit.data().system.surface.name};
-    for (const std::size_t slot : {model.slot_C_H.at(0), model.slot_C_A.at(0)}) {
-      row.push_back(Number{two.result.theta.at(slot), significant(3)});
-      row.push_back(
-          Number{fit.a.fitted.theta.at(slot), significant(3), fit.a.fitted.std_error.at(slot)});
-    }
-    row.push_back(Number{two.rmse, padded(2)});
-    row.push_back(Number{fit.a.fitted.rmse, padded(2)});
-    row.push_back(capture_cell(fit));
-    table.rows.push_back(std::move(row));
-  }
+/// C_H, C_A, f0 and the rms of e by two points and by all points.
+Table calibration_table(const Fit& fit) {
+  Table table = two_point_table(fit.a, fit.two_point());
+  table.caption = fit.data().system.particle.name + " on " + fit.data().system.surface.name;
+  table.compact = false;
   return table;
+}
+
+/// A parameter of a fit to all points with its standard error.
+Number estimate_of(const Fit& fit, const std::vector<std::size_t>& slots) {
+  const std::size_t slot = slots.at(0);
+  return {fit.a.fitted.theta.at(slot), significant(3), fit.a.fitted.std_error.at(slot)};
 }
 
 // ---- Table 1 and Fig. 8: constants -------------------------------------------------------------
@@ -493,8 +476,8 @@ void add_wall(Material& all) {
       say("Two points of 4.9 {um} leave the other 58 unused. All points give {C_H} and {C_A} "
           "with errors, a smaller rms of {e} and a capture velocity with an interval, and "
           "they show that the laws of the model are not exact.");
-  part.blocks = {Figures{std::move(figures)},
-                 calibration_table(all, {"molybdenum", "silicon", "mica"})};
+  part.blocks = {Figures{std::move(figures)}, calibration_table(metal),
+                 calibration_table(all.fit("silicon")), calibration_table(all.fit("mica"))};
 }
 
 void add_quartz(Material& all) {
@@ -519,7 +502,7 @@ void add_quartz(Material& all) {
           words_of_cell(capture_cell(fit)), slow);
   part.blocks = {Figures{{figure("fig-9", "Restitution of polystyrene on quartz",
                                  calibrations_plot(fit, {0.7, 45.0}), of_calibrations, 375)}},
-                 calibration_table(all, {"quartz"})};
+                 calibration_table(fit)};
 }
 
 // ---- Fig. 6: forces ----------------------------------------------------------------------------
@@ -612,7 +595,7 @@ double capture_with_stiffness_of_materials(const Fit& fit, double smallest, doub
   data.system.adhesion_force_f0.reset();
   const ImpactModel model = make_model(fit.a.spec, {data});
   std::vector<double> theta = model.initial();
-  theta.at(model.slot_C_H.at(0)) = fit.theta(fit.a.fitted.model.slot_C_H);
+  theta.at(model.slot_C_H.at(0)) = estimate_of(fit, fit.a.fitted.model.slot_C_H).value;
   const auto at = [&](double C_A, double diameter) {
     theta.at(model.slot_C_A.at(0)) = C_A;
     const CaptureVelocity found = capture_velocity(model, theta, 0, diameter);
