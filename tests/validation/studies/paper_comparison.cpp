@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr double knee = 0.5;            // [m/s] above which e of steel changes little
 constexpr double middle_size = 4.9e-6;  // [m] at which the paper calibrates fluorescein
-constexpr double small_size = 2.58e-6, large_size = 6.89e-6;  // [m]
-constexpr int thread_count = 0;                               // all cores
+constexpr double small_size = 2.58e-6;  // [m] the smallest of fluorescein
+constexpr int thread_count = 0;         // all cores
 
 /// A fit of the paper's data.
 struct Fit {
@@ -290,7 +290,6 @@ Recipe recipe_of(const Fit& fit) {
 
 void add_sizes(Material& all) {
   std::vector<Figure> figures;
-  Sentence bins;
   for (const std::string key : {"sst125", "sst65"}) {
     const MeasuredSizes sizes = *sizes_of_dataset(all.fit(key).data().folder);
     all.number(key + "-smallest", in_um(sizes.smallest));
@@ -472,10 +471,15 @@ void add_wall(Material& all) {
   }
   PartResult& part = all.out.parts["fig-7"];
   part.gain = "one fit of all sizes, errors, capture velocities";
-  part.words =
-      say("Two points of 4.9 {um} leave the other 58 unused. All points give {C_H} and {C_A} "
-          "with errors, a smaller rms of {e} and a capture velocity with an interval, and "
-          "they show that the laws of the model are not exact.");
+  const auto on_each = [&](const auto& words) {
+    return joined(std::vector<std::string>{"molybdenum", "silicon", "mica"}, ", ",
+                  [&](const std::string& key) { return words(all.fit(key)) + " on " + key; });
+  };
+  part.words = say(
+      "Two points of 4.9 {um} give no errors and leave the other 58 points unused. All "
+      "points give {C_A} = {} s/m, and {V*} of 4.9 {um} is {} m/s.",
+      on_each([](const Fit& fit) { return estimate_of(fit, fit.a.fitted.model.slot_C_A).words(); }),
+      on_each([](const Fit& fit) { return words_of_cell(capture_cell(fit)); }));
   part.blocks = {Figures{std::move(figures)}, calibration_table(metal),
                  calibration_table(all.fit("silicon")), calibration_table(all.fit("mica"))};
 }
