@@ -13,31 +13,20 @@
 #include "estimate/predictor.hpp"
 #include "experiment/pairing_files.hpp"
 #include "predict/simulated_impact.hpp"
-#include "report/fit_report.hpp"
 #include "report/format.hpp"
-#include "report/panels.hpp"
 #include "report/prediction_report.hpp"
 #include "validation/recipe/recipe.hpp"
+#include "validation/studies/paper_fit.hpp"
 
 namespace recoil::paper {
 namespace {
 
 namespace fs = std::filesystem;
 
+const std::vector<std::string> targets = {"molybdenum", "silicon", "mica"};  // of Wall et al.
 constexpr double knee = 0.5;            // [m/s] above which e of steel changes little
 constexpr double middle_size = 4.9e-6;  // [m] at which the paper calibrates fluorescein
 constexpr double small_size = 2.58e-6;  // [m] the smallest of fluorescein
-constexpr int thread_count = 0;         // all cores
-
-/// A fit of the paper's data.
-struct Fit {
-  std::string key;   ///< in the ids of statements
-  std::string file;  ///< of `fits`, without its extension
-  Analysis a = {};
-
-  const TwoPointComparison& two_point() const { return a.uncertainty.two_point.at(0); }
-  const Dataset& data() const { return a.datasets.at(0); }
-};
 
 /// Everything that is computed once for all figures.
 struct Material {
@@ -53,100 +42,6 @@ struct Material {
     out.findings[id] = {std::nullopt, holds, std::move(words)};
   }
 };
-
-// ---- pictures ----------------------------------------------------------------------------------
-
-Figure figure(const std::string& name, const std::string& title, plot::Plot plot,
-              const Sentence& caption, int height = 340) {
-  plot::Picture picture{.name = name, .title = title, .height = height, .plots = {}};
-  picture.plots.push_back(std::move(plot));
-  return figure_of(std::move(picture), caption);
-}
-
-plot::Plot histogram_plot(const std::vector<double>& values, const std::string& label,
-                          const std::string& unit_name, double unit_size) {
-  const Histogram histogram = sturges(values);
-  plot::Boxes bars;
-  double highest = 0.0;
-  for (std::size_t k = 0; k < histogram.counts.size(); ++k) {
-    const auto count = static_cast<double>(histogram.counts[k]);
-    bars.add(histogram.edge(k) / unit_size, histogram.edge(k + 1) / unit_size, 0.0, count);
-    highest = std::max(highest, count);
-  }
-  plot::Plot shown;
-  shown.x = {label, unit_name};
-  shown.x.set_range({bars.left.front(), bars.right.back()});
-  shown.y = {"count"};
-  shown.y.set_range({0.0, 1.08 * highest});
-  shown.layers.push_back(std::move(bars));
-  return shown;
-}
-
-plot::Plot restitution_plot(plot::Range velocity) {
-  plot::Plot shown;
-  shown.x = velocity_axis(velocity);
-  shown.y = restitution_axis(1.05);
-  shown.key = plot::KeyPlace::below;
-  return shown;
-}
-
-/// The points of a diameter; of all diameters if it is 0.
-plot::Points points_of(const Fit& fit, double diameter, plot::Marker marker,
-                       const std::string& name) {
-  plot::Points points;
-  points.marker = marker;
-  points.name = name;
-  std::vector<double> sd;
-  for (const Observation& point : fit.a.fitted.data.points) {
-    if (diameter > 0.0 && point.diameter != diameter) continue;
-    points.x.push_back(point.velocity);
-    points.y.push_back(point.restitution);
-    sd.push_back(point.sd);
-  }
-  return points.with_sd(sd);
-}
-
-/// e(V) of every size of a fit by all points (solid) and by two points (dashed), with the points.
-plot::Plot calibrations_plot(const Fit& fit, plot::Range velocity) {
-  plot::Plot shown = restitution_plot(velocity);
-  shown.heading = fit.data().system.particle.name + " on " + fit.data().system.surface.name;
-  const auto& curves = fit.a.uncertainty.curves;
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    const plot::Marker& marker = plot::marker(k);
-    const CurveColumns columns = curve_columns(curves[k]);
-    shown.layers.push_back(plot::Line{columns.velocity, columns.restitution, {marker.colour, 1.7}});
-    shown.layers.push_back(
-        plot::Line{columns.velocity, columns.two_point, {marker.colour, 1.7, plot::dashes}});
-    shown.layers.push_back(
-        points_of(fit, curves[k].diameter, marker, diameter_label(curves[k].diameter)));
-  }
-  return shown;
-}
-
-constexpr const char* of_calibrations =
-    "Solid: all points. Dashed: two points. Points: reconstruction ± 1 sd.";
-
-// ---- tables ------------------------------------------------------------------------------------
-
-Cell capture_cell(const Fit& fit) {
-  const CaptureEstimate* capture = reference_capture(fit.a, 0);
-  if (capture == nullptr) return {};
-  return with_interval(capture->value, capture->interval, padded(3));
-}
-
-/// C_H, C_A, f0 and the rms of e by two points and by all points.
-Table calibration_table(const Fit& fit) {
-  Table table = two_point_table(fit.a, fit.two_point());
-  table.caption = fit.data().system.particle.name + " on " + fit.data().system.surface.name;
-  table.compact = false;
-  return table;
-}
-
-/// A parameter of a fit to all points with its standard error.
-Number estimate_of(const Fit& fit, const std::vector<std::size_t>& slots) {
-  const std::size_t slot = slots.at(0);
-  return {fit.a.fitted.theta.at(slot), significant(3), fit.a.fitted.std_error.at(slot)};
-}
 
 // ---- Table 1 and Fig. 8: constants -------------------------------------------------------------
 
@@ -202,7 +97,7 @@ Number fitted_exponent(const Material& all, const Fit& fit) {
   const std::string table = "[model]\n";
   text.insert(text.find(table) + table.size(), "mechanisms = [\"size_law\"]\n");
   FitSpec spec = parse_fit(text, all.root / "fits" / (fit.file + ".toml"));
-  const Analysis free = analyse_fit({std::move(spec), fit.a.datasets}, {.threads = thread_count});
+  const Analysis free = analyse_fit({std::move(spec), fit.a.datasets}, {});
   const auto& slots = free.fitted.model.slots;
   const auto slot = std::ranges::find_if(
       slots, [](const ParameterSlot& one) { return one.label() == "size_exponent"; });
@@ -219,7 +114,7 @@ void add_size_law(Material& all) {
   std::vector<double> radii, forces;
   std::size_t count = 0;
   Sentence exponents;
-  for (const std::string key : {"molybdenum", "silicon", "mica"}) {
+  for (const std::string& key : targets) {
     const ContactProperties contact = contact_of_materials(all.fit(key).data());
     plot::Line line{.x = {}, .y = {}, .stroke = {plot::marker(count).colour, 1.7}};
     line.mark = plot::marker(count++).mark;
@@ -424,7 +319,7 @@ void add_steels(Material& all) {
   part.words =
       say("The points stop above capture. The fit says where capture begins: at {} m/s for "
           "the mean sphere of SST65 and at {} m/s for that of SST125.",
-          words_of_cell(capture_cell(fine)), words_of_cell(capture_cell(coarse)));
+          capture_words(fine), capture_words(coarse));
   part.blocks = {Figures{{figure("fig-5", "Restitution of both steels", std::move(shown),
                                  "Points: reconstruction ± 1 sd. Lines: the fit to all points, "
                                  "averaged over the rebounds that are seen.")}}};
@@ -465,21 +360,20 @@ void add_wall(Material& all) {
                 missed("silicon"), missed("mica"), missed("molybdenum")));
   all.number("wall-fastest", velocities_of(metal).second);
   std::vector<Figure> figures;
-  for (const std::string key : {"molybdenum", "silicon", "mica"}) {
-    figures.push_back(figure("fig-7-" + key, "Restitution of four sizes on " + key,
-                             calibrations_plot(all.fit(key), {0.3, 130.0}), of_calibrations, 375));
+  for (const std::string& key : targets) {
+    figures.push_back(calibrations_figure(all.fit(key), "fig-7-" + key, {0.3, 130.0}));
   }
   PartResult& part = all.out.parts["fig-7"];
   part.gain = "one fit of all sizes, errors, capture velocities";
   const auto on_each = [&](const auto& words) {
-    return joined(std::vector<std::string>{"molybdenum", "silicon", "mica"}, ", ",
+    return joined(targets, ", ",
                   [&](const std::string& key) { return words(all.fit(key)) + " on " + key; });
   };
   part.words = say(
       "Two points of 4.9 {um} give no errors and leave the other 58 points unused. All "
       "points give {C_A} = {} s/m, and {V*} of 4.9 {um} is {} m/s.",
       on_each([](const Fit& fit) { return estimate_of(fit, fit.a.fitted.model.slot_C_A).words(); }),
-      on_each([](const Fit& fit) { return words_of_cell(capture_cell(fit)); }));
+      on_each([](const Fit& fit) { return capture_words(fit); }));
   part.blocks = {Figures{std::move(figures)}, calibration_table(metal),
                  calibration_table(all.fit("silicon")), calibration_table(all.fit("mica"))};
 }
@@ -503,10 +397,8 @@ void add_quartz(Material& all) {
   part.words =
       say("The curves of two and of all points cannot be told apart. All points add the "
           "errors: {V*} = {} m/s, below the slowest point at {:.2g} m/s.",
-          words_of_cell(capture_cell(fit)), slow);
-  part.blocks = {Figures{{figure("fig-9", "Restitution of polystyrene on quartz",
-                                 calibrations_plot(fit, {0.7, 45.0}), of_calibrations, 375)}},
-                 calibration_table(fit)};
+          capture_words(fit), slow);
+  part.blocks = {Figures{{calibrations_figure(fit, "fig-9", {0.7, 45.0})}}, calibration_table(fit)};
 }
 
 // ---- Fig. 6: forces ----------------------------------------------------------------------------
@@ -629,14 +521,12 @@ void add_single_sizes(Material& all, const PolydispersePrediction& mixture) {
   shown.layers.push_back(points_of(fit, 0.0, {plot::ink, plot::Mark::square}, "SST65"));
   PartResult& part = all.out.parts["fig-10"];
   part.gain = "errors of the capture velocities; which stiffness was simulated";
-  part.words =
-      say("All points give {V*} = {} m/s at 20 {um} and {} m/s at 110 {um}, with the printed K and "
-          "{f0}. "
-          "With K of E and nu, the {C_A} that gives 0.9 m/s at 20 {um} gives {:.2g} m/s at 110 "
-          "{um}. So "
-          "the paper's curves probably have the printed K.",
-          smallest, largest,
-          capture_with_stiffness_of_materials(fit, mixture.sizes.smallest, mixture.sizes.largest));
+  part.words = say(
+      "All points give {V*} = {} m/s at 20 {um} and {} m/s at 110 {um}, with the printed K and "
+      "{f0}. With K of E and nu, the {C_A} that gives 0.9 m/s at 20 {um} gives {:.2g} m/s at 110 "
+      "{um}. So the paper's curves probably have the printed K.",
+      smallest, largest,
+      capture_with_stiffness_of_materials(fit, mixture.sizes.smallest, mixture.sizes.largest));
   part.blocks = {
       Figures{{figure("fig-10", "Restitution of the smallest, mean and largest sphere",
                       std::move(shown), "Lines: the fit to all points, for one size each.", 375)}}};
@@ -707,7 +597,6 @@ Comparison compare_with_paper(const fs::path& root) {
   for (Fit& fit : all.fits) {
     AnalysisOptions options;
     options.replicates = 0;
-    options.threads = thread_count;
     fit.a = analyse(load_inputs(root / "fits" / (fit.file + ".toml")), options);
   }
   all.out.is_reconstruction = std::ranges::all_of(
