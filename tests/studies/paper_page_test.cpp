@@ -120,19 +120,21 @@ TEST(PaperPage, EveryStatementIsAnswered) {
   EXPECT_EQ(ids.size(), comparison().findings.size());
 }
 
-TEST(PaperPage, OnlyTheRowOfSteelDisagrees) {
+// With the middles of the bins, as in the paper, the size at 35 um decides the average of SST65 at
+// its lowest velocity.
+TEST(PaperPage, OnlySteelDisagrees) {
   std::set<std::string> wrong;
   for (const Statement& one : statements()) {
     if (one.kind != Kind::obstacle && !holds(one, comparison())) wrong.insert(std::string(one.id));
   }
-  EXPECT_EQ(wrong, (std::set<std::string>{"steel-K", "steel-f0"}));
+  EXPECT_EQ(wrong, (std::set<std::string>{"mixture-65", "steel-K", "steel-f0"}));
 }
 
 TEST(PaperPage, NoticesWhatDoesNotAgree) {
   Comparison other = comparison();
   const Tally before = tally(other);
   *other.findings.at("mica-K").value *= 1.02;
-  other.findings.at("mixture-65").holds = false;
+  other.findings.at("mixture-125").holds = false;
   EXPECT_EQ(tally(other).disagree, before.disagree + 2);
   EXPECT_EQ(tally(other).agree, before.agree - 2);
   const std::string html = html_page(paper_document(other));

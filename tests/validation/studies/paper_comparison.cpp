@@ -43,6 +43,9 @@ struct Material {
   }
 };
 
+/// A share [1] as "17 %".
+std::string whole_percent(double share) { return text_of(share, in_percent(fixed(0))); }
+
 // ---- Table 1 and Fig. 8: constants -------------------------------------------------------------
 
 /// The contact that follows from E and nu alone.
@@ -85,7 +88,7 @@ void add_constants(Material& all) {
   part.words =
       say("The row of steel contradicts itself: its E and nu give K = {:.0f} GPa, and the printed "
           "K and W give {f0} = {:.0f} N/m by eq. 12. Two points cannot test {f0}. Fitted to all "
-          "points, it is {} N/m.",
+          "points it is, in N/m, {}.",
           *all.out.findings["steel-K"].value, printed.adhesion_force_derived,
           joined(std::vector<std::string>{"molybdenum", "silicon", "mica", "quartz"}, ", ",
                  [&](const std::string& key) { return fitted_f0_words(all.fit(key)); }));
@@ -237,11 +240,11 @@ void add_velocities(Material& all) {
   const std::vector<double> raw = incoming(low.seen.raw_velocities);
   const std::vector<double> paired = incoming(low.seen.paired_velocities);
   all.claim("broadened", slow_share(raw) > 0.02,
-            say("{} of {} are slower than half the middle velocity", percent(slow_share(raw)),
+            say("{} of {} are slower than half the middle velocity", whole_percent(slow_share(raw)),
                 raw.size()));
-  all.claim(
-      "sorted", slow_share(paired) < 0.01,
-      say("{} of {} pairs are, without a threshold", percent(slow_share(paired)), paired.size()));
+  all.claim("sorted", slow_share(paired) < 0.01,
+            say("{} of {} pairs are, without a threshold", whole_percent(slow_share(paired)),
+                paired.size()));
   const auto later = std::ranges::count_if(low.pairs.impacts,
                                            [](const Impact& impact) { return impact.number > 1; });
   std::vector<Figure> figures;
@@ -308,7 +311,7 @@ void add_steels(Material& all) {
   std::ranges::sort(rebounds);
   all.number("events", sorted_quantile(rebounds, 0.5));
   all.claim("flat", farthest < 0.2,
-            say("all points above are within {} of their mean", percent(farthest)));
+            say("all points above are within {} of their mean", whole_percent(farthest)));
   all.claim(
       "falls", drops[0] > 0.0 && drops[1] > 0.0,
       say("the mean below is lower by {:.3f} (SST65) and {:.3f} (SST125)", drops[1], drops[0]));
@@ -343,7 +346,7 @@ void add_wall(Material& all) {
     points += 1.0;
   }
   all.claim("slightly-low", gaps[0] > 0.0 && gaps[0] / points < 0.05,
-            say("by {:.3f} on average over {:.0f} points; by {:.3f} with all points",
+            say("by {:.3f} on average over {:.0f} points; by {:.4f} with all points",
                 gaps[0] / points, points, gaps[1] / points));
   const auto highest = [](const std::vector<double>& e) {
     return std::ranges::max_element(e) - e.begin();
@@ -371,7 +374,7 @@ void add_wall(Material& all) {
   };
   part.words = say(
       "Two points of 4.9 {um} give no errors and leave the other 58 points unused. All "
-      "points give {C_A} = {} s/m, and {V*} of 4.9 {um} is {} m/s.",
+      "points give {C_A} in s/m: {}; and {V*} of 4.9 {um} in m/s: {}.",
       on_each([](const Fit& fit) { return estimate_of(fit, fit.a.fitted.model.slot_C_A).words(); }),
       on_each([](const Fit& fit) { return capture_words(fit); }));
   part.blocks = {Figures{std::move(figures)}, calibration_table(metal),
@@ -419,12 +422,12 @@ void add_forces(Material& all) {
     return 2.0 * s.impact.energy.adhesion_loss;
   };
   all.claim("hertz-small", hertz(two) < 0.1,
-            say("it takes {} of the incident energy by two points, {} by all", percent(hertz(two)),
-                percent(hertz(full))));
+            say("it takes {} of the incident energy by two points, {} by all",
+                whole_percent(hertz(two)), whole_percent(hertz(full))));
   all.claim("mainly-adhesion", adhesion(two) > hertz(two),
             say("{} against {} of the incident energy by two points, {} against {} by all",
-                percent(adhesion(two)), percent(hertz(two)), percent(adhesion(full)),
-                percent(hertz(full))));
+                whole_percent(adhesion(two)), whole_percent(hertz(two)),
+                whole_percent(adhesion(full)), whole_percent(hertz(full))));
   const std::vector<HistoryColumn> columns = history_columns(full);
   const auto values = [&](std::string_view name) {
     return std::ranges::find_if(columns, [&](const auto& c) { return c.name == name; })->values;
@@ -497,7 +500,7 @@ double capture_with_stiffness_of_materials(const Fit& fit, double smallest, doub
     const CaptureVelocity found = capture_velocity(model, theta, 0, diameter);
     return found.found ? found.value : 10.0;  // it never rebounds
   };
-  const double C_A = find_root([&](double c) { return at(c, smallest) - 0.9; }, 0.01, 1.2, 1e-6);
+  const double C_A = find_root([&](double c) { return at(c, smallest) - 0.9; }, 0.01, 2.0, 1e-6);
   return at(C_A, largest);
 }
 
@@ -546,6 +549,7 @@ PolydispersePrediction add_mixture(Material& all, const std::string& key, const 
   const Fit& fit = all.fit(key);
   const MeasuredSizes sizes = *sizes_of_dataset(fit.data().folder);
   const PolydispersePrediction mixture = predict_sizes(fit.a, sizes, std::nullopt, true, "");
+  const PolydispersePrediction spread = predict_sizes(fit.a, sizes, std::nullopt, false, "");
   const ImpactPoint& slowest =
       std::ranges::min(fit.data().points, {}, &ImpactPoint::incident_velocity);
   const auto at_slowest = [&](const auto& value) {
@@ -564,7 +568,7 @@ PolydispersePrediction add_mixture(Material& all, const std::string& key, const 
                 "the mean size {:.3f}",
                 slowest.incident_velocity, e, seen, single));
   Figure shown = mixture_figure(fit.a, mixture);
-  shown.id = shown.picture.name = place;
+  shown.id = shown.picture.name = "picture-" + place;
   shown.caption =
       say("The average over {} sizes, at the middles of their bins, under three "
           "conventions. Unseen: rebounds below {:.2f} m/s, which do not reach the "
@@ -574,11 +578,13 @@ PolydispersePrediction add_mixture(Material& all, const std::string& key, const 
   part.gain = "three ways to count captures; the fit averages over sizes";
   part.words = say(
       "At the slowest point {} are captured. The average is {:.3f} if they count as 0, {:.3f} if "
-      "they are left out and {:.3f} if unseen rebounds are left out, too. Over all points the "
-      "rms of {e} is {:.3f} for the last and {:.3f} for the mean size, with the same "
-      "parameters.",
-      percent(captured), average(0), average(1), seen, mixture.miss[2].rmse.value_or(NAN),
-      mixture.miss_single.rmse.value_or(NAN));
+      "they are left out and {:.3f} if unseen rebounds are left out, too. With five sizes in each "
+      "bin instead of its middle, the last is {:.3f}. Over all points the rms of {e} is {:.3f} for "
+      "it and {:.3f} for the mean size, with the same parameters.",
+      whole_percent(captured), average(0), average(1), seen,
+      interpolated(spread.velocity, slowest.incident_velocity,
+                   [&](std::size_t k) { return spread.average[2][k].value.value_or(NAN); }),
+      spread.miss[2].rmse.value_or(NAN), mixture.miss_single.rmse.value_or(NAN));
   part.blocks = {Figures{{std::move(shown)}}};
   return mixture;
 }

@@ -17,7 +17,7 @@ std::string contact_words(const Fit& fit) {
 
 Figure figure(const std::string& name, const std::string& title, plot::Plot plot,
               const Sentence& caption, int height) {
-  plot::Picture picture{.name = name, .title = title, .height = height, .plots = {}};
+  plot::Picture picture{.name = "picture-" + name, .title = title, .height = height, .plots = {}};
   picture.plots.push_back(std::move(plot));
   return figure_of(std::move(picture), caption);
 }

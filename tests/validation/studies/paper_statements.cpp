@@ -149,13 +149,13 @@ std::span<const Statement> statements() {
                "which one it simulated with."),
 
       number("fig-11", "bins", "bins of 10 {um}", 9.0, "1", 0.001),
-      claim("fig-11", "mixture-65", "lowest velocity",
+      claim("fig-11", "mixture-65", "SST65 at the lowest velocity",
             "The weighted average predicts slightly better than the mean size, because it "
             "considers captures."),
       obstacle("fig-11", "captured spheres in the average",
                "The paper does not say whether they count as {e} = 0 or are left out."),
 
-      claim("fig-12", "mixture-125", "lowest velocity",
+      claim("fig-12", "mixture-125", "SST125 at the lowest velocity",
             "The weighted average agrees better than the mean size, most of all at low "
             "velocities."),
       obstacle("fig-12", "captured spheres in the average",
