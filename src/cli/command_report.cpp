@@ -169,6 +169,24 @@ IndexEntry make_page(FitInputs inputs, const GivenOptions& given, const std::str
   return entry;
 }
 
+/// Links to the pages of recoil in `out` that are not of `entries`, such as those of other fits.
+std::vector<Sentence> other_pages(const fs::path& out, const std::vector<IndexEntry>& entries) {
+  std::vector<Sentence> links;
+  for (const fs::path& file : files_in(out, ".html")) {
+    const std::string address = url_path(file.filename().string());
+    const bool own = address == "index.html" ||
+                     std::ranges::any_of(
+                         entries, [&](const IndexEntry& entry) { return entry.page == address; });
+    if (own) continue;
+    try {
+      const std::string title = title_of_page(read_text_file(file));
+      if (!title.empty()) links.push_back(link(title, address));
+    } catch (const InputError&) {  // of somebody else
+    }
+  }
+  return links;
+}
+
 void report(const GivenOptions& given) {
   const fs::path out = given.text("--out");
   require_writable_folder(out);
@@ -194,7 +212,8 @@ void report(const GivenOptions& given) {
     print_text("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
   }
-  write_whole_file(out / "index.html", html_page(index_document(entries)));
+  write_whole_file(out / "index.html",
+                   html_page(index_document(entries, other_pages(out, entries))));
   print_text("{}: written\n", (out / "index.html").string());
 }
 

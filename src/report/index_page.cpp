@@ -9,9 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/program.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "diagnosis/diagnosis_result.hpp"
+#include "document/html.hpp"
 #include "json/fit_file.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
@@ -148,7 +150,21 @@ plot::Picture thumbnail(const Analysis& analysis) {
   return picture;
 }
 
-Document index_document(const std::vector<IndexEntry>& entries) {
+std::string title_of_page(const std::string& html) {
+  const std::string opening = "<title>";
+  const std::size_t begin = html.find(opening);
+  const std::size_t end = html.find("</title>");
+  const bool ours = html.find("<footer>recoil ") != std::string::npos;
+  if (!ours || begin == std::string::npos || end == std::string::npos) return "";
+  std::string title = html.substr(begin + opening.size(), end - begin - opening.size());
+  for (const char sign : {'<', '>', '"', '\'', '&'}) {
+    replace_all(title, escape_html(std::string(1, sign)), std::string(1, sign));
+  }
+  return title;
+}
+
+Document index_document(const std::vector<IndexEntry>& entries,
+                        const std::vector<Sentence>& others) {
   Document page;
   page.title = "recoil: fits";
   page.heading = "Impact of microspheres with surfaces";
@@ -158,6 +174,8 @@ Document index_document(const std::vector<IndexEntry>& entries) {
       entries.empty()
           ? Sentence("There is no fit yet.")
           : say("One card per fit: verdict, capture velocity {V*} and fitted parameters.")}};
+  if (!others.empty())
+    page.foreword.emplace_back(Paragraph{say("Also here: {}.", join(others, ", "))});
   for (const IndexEntry& entry : entries) {
     const auto fit = contents_of<FitFile>(entry.page, entry.fit_json, "fit.json");
     add_banners(fit, page.foreword);

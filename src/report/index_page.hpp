@@ -21,9 +21,14 @@ struct IndexEntry {
 /// A small picture of e(V) for the card of a fit.
 plot::Picture thumbnail(const Analysis& analysis);
 
+/// The title of a page that recoil wrote; empty for another text.
+std::string title_of_page(const std::string& html);
+
 /// The index page with one card for each fit: provenance, verdict, picture, capture velocity and
 /// parameters.
+/// @param others links to other pages in its folder
 /// @throws InputError if a file is not the JSON of a fit or of a diagnosis
-Document index_document(const std::vector<IndexEntry>& entries);
+Document index_document(const std::vector<IndexEntry>& entries,
+                        const std::vector<Sentence>& others = {});
 
 }  // namespace recoil

@@ -55,6 +55,18 @@ TEST(Index, HasACardPerFit) {
   EXPECT_NO_THROW(html_page(index_document({})));
 }
 
+TEST(Index, LinksOtherPagesByTheirTitles) {
+  Document other;
+  other.title = "Spheres & \"plates\"";
+  other.foot = "recoil 1.0";
+  EXPECT_EQ(title_of_page(html_page(other)), other.title);
+  other.foot = "somebody else";
+  EXPECT_EQ(title_of_page(html_page(other)), "");
+  EXPECT_EQ(title_of_page("<footer>recoil "), "");
+  const std::string html = html_page(index_document({}, {link("Spheres & plates", "b.html")}));
+  EXPECT_NE(html.find("<a href=\"b.html\">Spheres &amp; plates</a>"), std::string::npos);
+}
+
 TEST(Index, ShowsCaptureVelocitiesAndFreeParameters) {
   const Analysis analysis = sample::four_diameters();
   const Document index = index_document({{"a.html", fit_json(analysis)}});
