@@ -50,8 +50,8 @@ inline constexpr Range restitution_sd{1e-12, 1.0, "1", "a deviation in per cent 
 inline constexpr Range incidence_angle{
     0.0, 1.5707963267948963, "rad",
     "it is measured from the normal, below 90 deg; subtract an angle to the surface from 90 deg"};
-/// Li, Dunn & Brach (1999) used impacts within 8 degrees of the normal. A larger angle is kept with
-/// a warning [rad].
+/// Li, Dunn & Brach (1999) kept to 8 degrees of the normal. A larger angle is kept with a warning
+/// [rad].
 inline constexpr double usual_incidence_angle = 8.0 * std::numbers::pi / 180.0;
 /// Negative if the sphere leaves backwards, as an elastic contact can cause (Maw, Barber & Fawcett
 /// 1976, Wear 38, 101-114).

@@ -88,9 +88,10 @@ std::string warning_sentence(const DatasetWarning& warning) {
     case PointRemark::oblique:
       return points_with(
           "an angle of incidence above 8 degrees",
-          fmt::format("kept, up to {:.3g} degrees; Li, Dunn & Brach (1999) used impacts within 8 "
-                      "degrees of the normal",
-                      in_degrees(warning.largest)));
+          fmt::format(
+              "kept, up to {:.3g} degrees; Li, Dunn & Brach (1999) kept to 8 degrees of the "
+              "normal",
+              in_degrees(warning.largest)));
     case PointRemark::repeated:
       return points_with("the same series, diameter, velocity and restitution as an earlier one",
                          "kept; a point copied by accident counts twice");
