@@ -102,9 +102,9 @@ TEST(IncidenceAngle, WhatHasNoMeaningIsOneClearLine) {
   expect_of_points("2,60", "2,", "points.csv:2:7: ", "'incidence_angle' is empty", "write 0");
   expect_of_points("2,60", "2,89.999999", "points.csv:2:7: ", "a normal velocity of 3.49",
                    "from the normal");
-  expect_of_points("0.7,,", "0.7,0.9,", "points.csv:3:11: ", "at an angle of 0",
+  expect_of_points("0.7,,", "0.7,0.9,", "points.csv:3:13: ", "at an angle of 0",
                    "leave the cell empty");
-  expect_of_points("1,30,,,", "1,30,,0.8,", "points.csv:4:9: ", "although all were captured",
+  expect_of_points("1,30,,,", "1,30,,0.8,", "points.csv:4:11: ", "although all were captured",
                    "leave the cell empty");
   expect_of_points("0.8,0.9", "0.8,90", "points.csv:2:14: ", "tangential_restitution = 90",
                    "in per cent");
@@ -113,16 +113,16 @@ TEST(IncidenceAngle, WhatHasNoMeaningIsOneClearLine) {
 
 TEST(IncidenceAngle, TheSchemaStatesItsUnit) {
   DatasetFolder(changed(oblique_package(), ", \"unit\": \"deg\"", ""), rows)
-      .expect({"", "", "", "datapackage.json:12:9: ", "'unit' is missing", "use rad, deg"});
+      .expect({"", "", "", "datapackage.json:13:9: ", "'unit' is missing", "use rad, deg"});
   DatasetFolder(changed(oblique_package(), "\"deg\"", "\"um\""), rows)
-      .expect({"", "", "", "datapackage.json:12:", "unknown unit 'um'", "deg"});
+      .expect({"", "", "", "datapackage.json:13:", "'incidence_angle' in 'um'", "deg"});
   const std::string without =
       changed(oblique_package(),
               "\n        { \"name\": \"incidence_angle\", \"type\": \"number\", "
               "\"unit\": \"deg\" },",
               "");
   DatasetFolder(without, rows)
-      .expect({"", "", "", "datapackage.json:13:19: ", "without 'incidence_angle'",
+      .expect({"", "", "", "datapackage.json:14:19: ", "without 'incidence_angle'",
                "add the column incidence_angle"});
 }
 

@@ -104,7 +104,7 @@ TEST(Table, RadiansOfTheMapAndAnglesThatCannotBeUsed) {
   EXPECT_THAT(complaint(request_of("V,e,angle\n2,0.5,95\n", ",incidence_angle=angle:deg")),
               AllOf(HasSubstr("input.csv:2:1: incidence_angle = 95 deg"), HasSubstr("below 90")));
   EXPECT_THAT(complaint(request_of("V,e,et\n2,0.5,0.8\n", ",tangential_restitution=et")),
-              AllOf(HasSubstr("input.csv:2:5: a tangential restitution without an incidence angle"),
+              AllOf(HasSubstr("input.csv:2:7: a tangential restitution without an incidence angle"),
                     HasSubstr("--map incidence_angle=COLUMN:deg")));
   const auto made =
       recoil::import_points(request_of("V,e,a\n2,0.5,1.2\n3,0.6,\n", ",incidence_angle=a:rad"));
