@@ -15,7 +15,7 @@ using recoil::load_dataset;
 using recoil::PointRemark;
 using support::changed;
 
-const std::string fields = R"({ "name": "series", "type": "string" },
+const std::string oblique_fields = R"({ "name": "series", "type": "string" },
         { "name": "diameter", "type": "number", "unit": "um" },
         { "name": "incident_velocity", "type": "number", "unit": "m/s" },
         { "name": "incidence_angle", "type": "number", "unit": "deg" },
@@ -26,7 +26,7 @@ const std::string fields = R"({ "name": "series", "type": "string" },
         { "name": "events", "type": "integer" },
         { "name": "captured", "type": "integer" })";
 
-const std::string rows =
+const std::string oblique_rows =
     "series,diameter,incident_velocity,incidence_angle,restitution,tangential_restitution,"
     "velocity_sd,setting_velocity_sd,events,captured\n"
     "a,5,2,60,0.8,0.9,0.1,0.04,10,0\n"
@@ -34,15 +34,15 @@ const std::string rows =
     "a,5,1,30,,,0.02,,10,10\n"
     "a,5,4,8,0.9,0.71,,,10,0\n";
 
-/// The package of `rows`.
+/// The package of `oblique_rows`.
 std::string oblique_package() {
   const std::size_t first = package.find("{ \"name\": \"series\"");
   const std::size_t end = package.find("\n      ]", first);
-  return package.substr(0, first) + fields + package.substr(end);
+  return package.substr(0, first) + oblique_fields + package.substr(end);
 }
 
 TEST(IncidenceAngle, TheNormalComponentAndItsErrorsAreRead) {
-  const Dataset dataset = load_dataset(DatasetFolder(oblique_package(), rows).path());
+  const Dataset dataset = load_dataset(DatasetFolder(oblique_package(), oblique_rows).path());
   const double root = std::sqrt(3.0);
   ASSERT_EQ(dataset.points.size(), 4U);
   EXPECT_NEAR(dataset.points[0].incident_velocity, 1.0, 1e-15);  // 2 cos(60 deg)
@@ -62,7 +62,8 @@ TEST(IncidenceAngle, TheNormalComponentAndItsErrorsAreRead) {
 TEST(IncidenceAngle, RadiansAreAUnit) {
   const DatasetFolder folder(
       changed(oblique_package(), "\"deg\"", "\"rad\""),
-      changed(changed(changed(rows, "2,60", "2,1.2"), "1,30", "1,0.5"), "4,8,0.9", "4,0.1,0.9"));
+      changed(changed(changed(oblique_rows, "2,60", "2,1.2"), "1,30", "1,0.5"), "4,8,0.9",
+              "4,0.1,0.9"));
   EXPECT_NEAR(load_dataset(folder.path()).points[0].incident_velocity, 2.0 * std::cos(1.2), 1e-15);
 }
 
@@ -70,7 +71,8 @@ TEST(IncidenceAngle, TheReboundVelocityIsComparedWithTheNormalComponent) {
   const std::string with_rebound =
       changed(oblique_package(), "\"restitution\", \"type\": \"number\", \"unit\": \"1\"",
               "\"rebound_velocity\", \"type\": \"number\", \"unit\": \"m/s\"");
-  const std::string of_rebound = changed(rows, "angle,restitution", "angle,rebound_velocity");
+  const std::string of_rebound =
+      changed(oblique_rows, "angle,restitution", "angle,rebound_velocity");
   EXPECT_NEAR(load_dataset(DatasetFolder(with_rebound, of_rebound).path()).points[0].restitution,
               0.8, 1e-15);  // 0.8 m/s over 1 m/s
   DatasetFolder(with_rebound, changed(of_rebound, "60,0.8", "60,1.3"))
@@ -78,7 +80,7 @@ TEST(IncidenceAngle, TheReboundVelocityIsComparedWithTheNormalComponent) {
 }
 
 TEST(IncidenceAngle, ManyDegreesAreRemarked) {
-  const Dataset dataset = load_dataset(DatasetFolder(oblique_package(), rows).path());
+  const Dataset dataset = load_dataset(DatasetFolder(oblique_package(), oblique_rows).path());
   ASSERT_EQ(dataset.warnings.size(), 1U);  // 60 and 30 degrees, not 8 and 0
   EXPECT_EQ(dataset.warnings[0].remark, PointRemark::oblique);
   EXPECT_EQ(dataset.warnings[0].count, 2U);
@@ -91,7 +93,7 @@ TEST(IncidenceAngle, WhatHasNoMeaningIsOneClearLine) {
                                    const std::string& begin, const std::string& word,
                                    const std::string& hint) {
     SCOPED_TRACE(new_text);
-    DatasetFolder(oblique_package(), changed(rows, old_text, new_text))
+    DatasetFolder(oblique_package(), changed(oblique_rows, old_text, new_text))
         .expect({"", "", "", begin, word, hint});
   };
   expect_of_points("2,60", "2,90", "points.csv:2:7: ", "incidence_angle = 90 deg",
@@ -112,16 +114,16 @@ TEST(IncidenceAngle, WhatHasNoMeaningIsOneClearLine) {
 }
 
 TEST(IncidenceAngle, TheSchemaStatesItsUnit) {
-  DatasetFolder(changed(oblique_package(), ", \"unit\": \"deg\"", ""), rows)
+  DatasetFolder(changed(oblique_package(), ", \"unit\": \"deg\"", ""), oblique_rows)
       .expect({"", "", "", "datapackage.json:13:9: ", "'unit' is missing", "use rad, deg"});
-  DatasetFolder(changed(oblique_package(), "\"deg\"", "\"um\""), rows)
+  DatasetFolder(changed(oblique_package(), "\"deg\"", "\"um\""), oblique_rows)
       .expect({"", "", "", "datapackage.json:13:", "'incidence_angle' in 'um'", "deg"});
   const std::string without =
       changed(oblique_package(),
               "\n        { \"name\": \"incidence_angle\", \"type\": \"number\", "
               "\"unit\": \"deg\" },",
               "");
-  DatasetFolder(without, rows)
+  DatasetFolder(without, oblique_rows)
       .expect({"", "", "", "datapackage.json:14:19: ", "without 'incidence_angle'",
                "add the column incidence_angle"});
 }
