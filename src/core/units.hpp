@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@ inline constexpr double GPa = 1e9;
 
 /// A length [m] in micrometres.
 constexpr double in_um(double metres) { return metres / units::um; }
+
+/// An angle [rad] in degrees.
+constexpr double in_degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
 
 /// Standard gravity [m/s2], exact by definition (CGPM 1901).
 inline constexpr double standard_gravity = 9.80665;

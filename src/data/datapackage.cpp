@@ -136,6 +136,14 @@ void check_completeness(const JsonNode& fields, const std::vector<Column>& colum
                 "the rebound is what is fitted",
                 "add one of them, or 'events' and 'captured' for bounced fractions");
   }
+  const auto tangential =
+      std::ranges::find(columns, Quantity::tangential_restitution, &Column::quantity);
+  if (tangential != columns.end() && !there(Quantity::incidence_angle)) {
+    fields.items()[static_cast<std::size_t>(tangential - columns.begin())].find("name")->fail(
+        "'tangential_restitution' is there without 'incidence_angle'",
+        "the angle gives the tangential velocity",
+        "add the column incidence_angle, from the normal, with the unit deg");
+  }
 }
 
 std::vector<Column> read_fields(const JsonNode& fields) {
@@ -312,9 +320,9 @@ std::optional<ImpactSystem> readable_system(const Json& system) {
 Dimension dimension_of(Quantity quantity) {
   using enum Dimension;
   static constexpr std::array<Dimension, count_of<Quantity>> dimensions = {
-      text,        length, velocity, ratio, velocity, ratio, velocity, length,
-      length,      count,  count,    text,  velocity, text,  pressure, ratio,
-      temperature, length, length,   count, length,   count, count,    length};
+      text,        length, velocity, ratio,    velocity, ratio, velocity, length,   length,
+      count,       count,  text,     velocity, text,     angle, ratio,    pressure, ratio,
+      temperature, length, length,   count,    length,   count, count,    length};
   return dimensions[static_cast<std::size_t>(quantity)];
 }
 

@@ -35,6 +35,8 @@ enum class Quantity {
   setting,
   setting_velocity_sd,
   launch,
+  incidence_angle,
+  tangential_restitution,
   // The conditions, in the order of `Condition`.
   ambient_pressure,
   relative_humidity,
@@ -48,10 +50,10 @@ enum class Quantity {
   film_thickness,
 };
 constexpr auto names_of_values(Quantity) {
-  constexpr auto own =
-      name_list("series", "diameter", "incident_velocity", "restitution", "rebound_velocity",
-                "restitution_sd", "velocity_sd", "diameter_sd", "series_diameter_sd", "events",
-                "captured", "setting", "setting_velocity_sd", "launch");
+  constexpr auto own = name_list(
+      "series", "diameter", "incident_velocity", "restitution", "rebound_velocity",
+      "restitution_sd", "velocity_sd", "diameter_sd", "series_diameter_sd", "events", "captured",
+      "setting", "setting_velocity_sd", "launch", "incidence_angle", "tangential_restitution");
   std::array<std::string_view, own.size() + count_of<Condition>> all{};
   for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
   for (const Condition condition : values_of<Condition>()) {

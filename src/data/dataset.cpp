@@ -167,10 +167,12 @@ class PointReader {
     const double converted = col.scale(given);
     if (range.contains(converted)) return converted;
     const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
-    if (converted < 0.0 || (converted == 0.0 && range.lower > 0.0)) {
+    if (range.lower >= 0.0 && (converted < 0.0 || (converted == 0.0 && range.lower > 0.0))) {
       const bool optional = name_of(quantity).ends_with("_sd");
       fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
-           optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
+           optional                                ? "leave the cell empty when it is not known"
+           : quantity == Quantity::incidence_angle ? "write its magnitude"
+                                                   : "correct it or remove the row");
     }
     fail(*found, problem, range.sentence(), range.hint_for(converted));
   }
@@ -258,10 +260,13 @@ class PointReader {
     constexpr double largest = limits::restitution.upper;
     std::optional<double> known;
     if (rebound) {
-      known =
-          value(quantity, {0.0, largest * point.incident_velocity, "m/s",
-                           "it is at most 1.2 times the incident velocity: correct one of them, "
-                           "or its unit"});
+      known = value(quantity,
+                    {0.0, largest * point.incident_velocity, "m/s",
+                     point.incidence_angle > 0.0
+                         ? "give the normal component of the rebound: it is at most 1.2 times "
+                           "that of the incident velocity"
+                         : "it is at most 1.2 times the incident velocity: correct one of "
+                           "them, or its unit"});
       if (known) known = std::min(*known / point.incident_velocity, largest);
     } else if (field_of_.contains(quantity)) {
       Range range = limits::restitution;
@@ -292,12 +297,44 @@ class PointReader {
                "without a rebound every point needs it");
   }
 
+  /// The angle of this row from the normal [rad]; 0 without such a column.
+  double incidence_angle() const {
+    if (!field_of_.contains(Quantity::incidence_angle)) return 0.0;
+    if (const auto angle = value(Quantity::incidence_angle, limits::incidence_angle)) return *angle;
+    fail(field(Quantity::incidence_angle),
+         fmt::format("'{}' is empty", column(Quantity::incidence_angle).name),
+         "the normal component of the velocity is fitted",
+         "write 0 for an impact along the normal, or remove the row");
+  }
+
+  /// V_n = V cos(angle) of this row [m/s].
+  double normal_velocity(double cosine) const {
+    const double normal = needed(Quantity::incident_velocity, limits::velocity) * cosine;
+    if (limits::velocity.contains(normal)) return normal;
+    fail(field(Quantity::incidence_angle), fmt::format("a normal velocity of {:g} m/s", normal),
+         limits::velocity.sentence(), std::string(limits::incidence_angle.hint));
+  }
+
+  std::optional<double> tangential_restitution(const ImpactPoint& point) const {
+    const auto known = value(Quantity::tangential_restitution, limits::tangential_restitution);
+    if (!known || (point.incidence_angle > 0.0 && !point.all_captured())) return known;
+    const bool captured = point.all_captured();
+    fail(field(Quantity::tangential_restitution),
+         fmt::format("a tangential restitution {}",
+                     captured ? "although all were captured" : "at an angle of 0"),
+         captured ? "it is that of the spheres that rebounded"
+                  : "a sphere along the normal has no tangential velocity",
+         "leave the cell empty");
+  }
+
   void read_point() {
     ImpactPoint point;
     point.line = row_->front().line;
     point.series = series_index();
     point.diameter = needed(Quantity::diameter, limits::diameter);
-    point.incident_velocity = needed(Quantity::incident_velocity, limits::velocity);
+    point.incidence_angle = incidence_angle();
+    const double cosine = std::cos(point.incidence_angle);
+    point.incident_velocity = normal_velocity(cosine);
     point.events = count(Quantity::events, limits::events, 1);
     point.captured = count(Quantity::captured,
                            {0.0, static_cast<double>(point.events), "impacts",
@@ -317,8 +354,12 @@ class PointReader {
       stated_sd_.push_back(
           {*point.restitution_sd * std::sqrt(impacts), *point.restitution_sd, sd.line, sd.column});
     }
+    point.tangential_restitution = tangential_restitution(point);
     point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
     point.setting_velocity_sd = value(Quantity::setting_velocity_sd, limits::velocity_sd);
+    for (auto* const sd : {&point.velocity_sd, &point.setting_velocity_sd}) {
+      if (*sd) **sd *= cosine;
+    }
     point.diameter_sd = value(Quantity::diameter_sd, limits::diameter_sd);
     point.series_diameter_sd = value(Quantity::series_diameter_sd, limits::diameter_sd);
     if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
@@ -329,7 +370,8 @@ class PointReader {
 
   void add(PointRemark remark, int line) {
     DatasetWarning& warning = warnings_[remark];
-    warning = {remark, warning.count + 1, warning.count == 0 ? line : warning.first_line};
+    warning = {remark, warning.count + 1, warning.count == 0 ? line : warning.first_line,
+               warning.largest};
   }
 
   void remark(const ImpactPoint& point) {
@@ -339,6 +381,11 @@ class PointReader {
     const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
     if (point.diameter > limits::unusual_diameter && !balls) {
       add(PointRemark::unusual_diameter, point.line);
+    }
+    if (point.incidence_angle > (1.0 + 1e-12) * limits::usual_incidence_angle) {
+      add(PointRemark::oblique, point.line);
+      double& largest = warnings_[PointRemark::oblique].largest;
+      largest = std::max(largest, point.incidence_angle);
     }
   }
 

@@ -19,10 +19,15 @@ inline constexpr const char* set_aside_recipe_name = "recipe-set-aside.toml";
 /// One measured point: the mean restitution of `events` impacts at one velocity and diameter, or a
 /// point at which the spheres were captured. One member for each column of the points.
 struct ImpactPoint {
-  std::size_t series = 0;          ///< index into Dataset::series
-  double diameter = 0.0;           ///< [m]
-  double incident_velocity = 0.0;  ///< V [m/s], > 0
-  double restitution = 0.0;        ///< e = V_rebound / V [1], 0 <= e <= 1.2; 0 when all captured
+  std::size_t series = 0;  ///< index into Dataset::series
+  double diameter = 0.0;   ///< [m]
+  /// V [m/s], > 0: the component along the normal, V_n = (stated speed) cos(incidence_angle).
+  double incident_velocity = 0.0;
+  double incidence_angle = 0.0;  ///< from the normal [rad], below pi / 2; 0 unless stated
+  /// e = V_rebound / V [1] of the normal components, 0 <= e <= 1.2; 0 when all captured
+  double restitution = 0.0;
+  /// e_t = V_t,rebound / V_t of the tangential components [1]; only at an angle above 0
+  std::optional<double> tangential_restitution;
   std::optional<double> restitution_sd;  ///< one standard deviation of `restitution` [1]
   std::optional<double> velocity_sd;     ///< one standard deviation of `incident_velocity` [m/s]
   /// One standard deviation of an error of `incident_velocity` that all points of its setting share
@@ -57,6 +62,7 @@ enum class PointRemark {
   restitution_above_one,
   unmarked_zero,  ///< e = 0 without `captured`: all its impacts count as captured
   unusual_diameter,
+  oblique,  ///< farther from the normal than Li, Dunn & Brach (1999) allowed
   repeated,
   other_bytes,  ///< the file has not the size or hash that datapackage.json states
 };
@@ -65,7 +71,8 @@ enum class PointRemark {
 struct DatasetWarning {
   PointRemark remark = PointRemark::restitution_above_one;
   std::size_t count = 0;
-  int first_line = 0;  ///< in points.csv
+  int first_line = 0;    ///< in points.csv
+  double largest = 0.0;  ///< angle of the oblique points [rad]
 };
 
 /// A dataset folder as read, in SI units.
@@ -102,7 +109,8 @@ std::string name_of_folder(const std::filesystem::path& folder);
 ///
 /// The restitution of a point is the mean over the events that rebounded. If all `events` were
 /// captured it is 0 or an empty cell, and a 0 without `captured` means that. With
-/// `rebound_velocity`, e = rebound / incident.
+/// `rebound_velocity`, e = rebound / incident. With `incidence_angle`, `incident_velocity` is the
+/// speed of the sphere: it and its errors are multiplied by the cosine here, and nowhere else.
 /// @throws InputError with file, line and column of the first mistake
 Dataset load_dataset(const std::filesystem::path& folder);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -44,6 +45,18 @@ inline constexpr Range restitution{0.0, 1.2, "1",
 /// One standard deviation; the lower end is far below the rounding of e.
 inline constexpr Range restitution_sd{1e-12, 1.0, "1", "a deviation in per cent has the unit %",
                                       "leave the cell empty when it is not known"};
+
+/// From the normal, below a right angle (the number before pi / 2).
+inline constexpr Range incidence_angle{
+    0.0, 1.5707963267948963, "rad",
+    "it is measured from the normal, below 90 deg; subtract an angle to the surface from 90 deg"};
+/// Li, Dunn & Brach (1999) kept to 8 degrees of the normal. A larger angle is kept with a warning
+/// [rad].
+inline constexpr double usual_incidence_angle = 8.0 * std::numbers::pi / 180.0;
+/// Negative if the sphere leaves backwards, as an elastic contact can cause (Maw, Barber & Fawcett
+/// 1976, Wear 38, 101-114).
+inline constexpr Range tangential_restitution{
+    -1.0, 1.2, "1", "it is a ratio of tangential velocities; in per cent its unit is %"};
 
 /// Impacts averaged in one point.
 inline constexpr Range events{1.0, 1e9, "impacts", "split the point", "count the impacts"};

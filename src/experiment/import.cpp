@@ -89,6 +89,11 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
         direct ? "they could contradict each other" : "",
         "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
   }
+  if (table.has("tangential_restitution") && !table.has("incidence_angle")) {
+    table.fail(0, "tangential_restitution", "a tangential restitution without an incidence angle",
+               "the angle gives the tangential velocity",
+               "name the angle from the normal with --map incidence_angle=COLUMN:deg");
+  }
   ImportedPoints out;
   out.points.reserve(table.size());
   for (std::size_t r = 0; r < table.size(); ++r) {
@@ -105,7 +110,7 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
                          (speed && !table.lacks(r, "rebound_velocity")) ||
                          (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
     const bool sized = !table.lacks(r, "diameter") || known_diameter(request, point.series, {});
-    if (table.lacks(r, "incident_velocity") || !sized ||
+    if (table.lacks(r, "incident_velocity") || table.lacks(r, "incidence_angle") || !sized ||
         (!rebound && !(point.value[Quantity::captured].value_or(0.0) > 0.0))) {
       table.leave_out(r);
       continue;

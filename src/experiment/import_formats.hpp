@@ -72,14 +72,15 @@ struct ExistingPackage {
 std::optional<ExistingPackage> existing_package(const std::filesystem::path& folder);
 
 /// The text of points.csv, with the columns that have a value. Diameters are in um, or in mm if all
-/// are at least 1 mm; velocities are in m/s.
+/// are at least 1 mm; velocities are in m/s, angles in degrees.
 struct PointsText {
   std::string csv;
   Json fields;  ///< of the schema
 };
 PointsText points_text(const std::vector<ImportedPoint>& points);
 
-/// The units in which `points_text` would write lengths below 1 mm and all other quantities.
+/// The units in which `points_text` would write lengths below 1 mm and all other quantities. Angles
+/// have none: radians and degrees are both usual.
 FieldUnits usual_units();
 
 /// The object under the key `recoil` of the new datapackage.json: provenance, materials, overrides

@@ -217,6 +217,8 @@ PointsColumn column_of(Quantity quantity, bool millimetres) {
       return {quantity, "integer", ""};
     case Dimension::length:
       return {quantity, "number", millimetres ? "mm" : "um", millimetres ? units::mm : units::um};
+    case Dimension::angle:
+      return {quantity, "number", "deg", *unit_factor(dimension, "deg")};
     default:
       return {quantity, "number", unit_names(dimension).front()};
   }
@@ -249,6 +251,7 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
 FieldUnits usual_units() {
   FieldUnits units;
   for (const Quantity quantity : values_of<Quantity>()) {
+    if (dimension_of(quantity) == Dimension::angle) continue;
     units[to_string(quantity)] = column_of(quantity, false).unit;
   }
   return units;

@@ -4,6 +4,8 @@
 #include <iconv.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -64,6 +66,20 @@ std::pair<std::string, std::string> value_and_error(const std::string& text) {
             std::string(trimmed(std::string_view(text).substr(at + mark.size())))};
   }
   return {text, ""};
+}
+
+/// Is `header`, without a unit in brackets, a usual name of `quantity` in tables of others?
+bool is_other_name(const std::string& header, const std::string& quantity) {
+  static const std::multimap<std::string, std::string> others = {
+      {"incidence_angle", "angle"},
+      {"incidence_angle", "incidence angle"},
+      {"incidence_angle", "incident angle"},
+      {"incidence_angle", "angle of incidence"},
+      {"tangential_restitution", "tangential restitution"}};
+  std::string name(trimmed(std::string_view(header).substr(0, header.find_first_of("[("))));
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto [first, last] = others.equal_range(quantity);
+  return std::any_of(first, last, [&](const auto& other) { return other.second == name; });
 }
 
 /// The name of the quantity that is the standard deviation of `quantity`.
@@ -270,7 +286,8 @@ std::optional<std::pair<std::string, std::string>> split_pair(const std::string&
 std::optional<double> ImportedPoint::restitution() const {
   const auto rebound = value[Quantity::rebound_velocity];
   if (!rebound) return value[Quantity::restitution];
-  return *rebound / *value[Quantity::incident_velocity];
+  return *rebound / (*value[Quantity::incident_velocity] *
+                     std::cos(value[Quantity::incidence_angle].value_or(0.0)));
 }
 
 ImportedPoint imported_point(const std::string& series, int line, std::optional<double> diameter,
@@ -448,12 +465,16 @@ void ImportTable::read_header() {
   for (std::size_t i = 0; i < header_.size(); ++i) header_[i].text = std::to_string(i + 1);
 }
 
-/// Assigns columns that have the name of a quantity.
+/// Assigns columns that have the name of a quantity, or another name of it.
 void ImportTable::find_columns_by_name() {
   for (const ImportQuantity& quantity : known_) {
-    const auto cell = std::ranges::find_if(header_, [&](const CsvField& c) {
+    auto cell = std::ranges::find_if(header_, [&](const CsvField& c) {
       return c.text.substr(0, c.text.find_first_of(" [(")) == quantity.name;
     });
+    if (cell == header_.end()) {
+      cell = std::ranges::find_if(
+          header_, [&](const CsvField& c) { return is_other_name(c.text, quantity.name); });
+    }
     if (cell != header_.end() && !has(quantity.name)) {
       read_map(fmt::format("{}=\"{}\"", quantity.name, cell->text));
     }
@@ -583,8 +604,9 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
   if (name.empty()) {
     throw InputError(
         cell.in(file_), fmt::format("the unit of {} is not stated", quote(cell.text)), "",
-        fmt::format("write --map {}", shell_word(fmt::format("{}=\"{}\":UNIT", quantity.name,
-                                                             shortened(cell.text, 40)))));
+        fmt::format(
+            "write --map {}, or the unit in the header, as in V [m/s]",
+            shell_word(fmt::format("{}=\"{}\":UNIT", quantity.name, shortened(cell.text, 40)))));
   }
   Scale scale = known_scale(quantity.dimension, name, quantity.name, cell.in(file_));
   if (factor) scale.factor *= factor->first;

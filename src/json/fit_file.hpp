@@ -50,6 +50,9 @@ inline constexpr std::string_view about_series_differ =
 inline constexpr std::string_view about_restitution_range =
     "every size of every dataset: e at the slowest and at the fastest setting with a rebound";
 
+inline constexpr std::string_view about_friction =
+    "Coulomb friction between spheres and surface, of every dataset with tangential_restitution";
+
 // One member per line.
 // clang-format off
 
@@ -113,6 +116,17 @@ struct RestitutionRangeEntry {
     (double, diameter_um, "diameter", "um"),
     (End, slowest, "the slowest setting"),
     (End, fastest, "the fastest setting")) };
+
+/// The coefficient of friction of one dataset.
+struct FrictionEntry { RECOIL_RESULT(
+    (std::string, dataset, "dataset"),
+    (OrReason<double>, mu, "coefficient of friction, from e_t = 1 - mu (1 + e) V_n / V_t of spheres "
+     "that slide, and 5/7 of those that roll", "1"),
+    (OrReason<Ends>, interval, "95 % interval, from the scatter by Student's t", "1"),
+    (OrNull<double>, lower_limit, "the smallest mu that agrees with the points, where all of them "
+     "may roll and no more is known", "1"),
+    (std::size_t, points, "points with e and a tangential restitution"),
+    (std::size_t, sliding, "those that slide to the end at the best mu; the others roll")) };
 
 /// The test for differences between series, and the largest difference.
 struct SeriesDifferEntry {
@@ -507,7 +521,8 @@ struct FitFile {
       (std::string, dataset, "dataset"),
       (std::string, series, "series"),
       (OrNull<double>, diameter_um, "diameter", "um"),
-      (OrNull<double>, incident_velocity, "incident velocity", "m/s"),
+      (OrNull<double>, incident_velocity, "incident velocity, its normal component", "m/s"),
+      (double, incidence_angle_deg, "stated angle of incidence from the normal, else 0", "deg"),
       (OrNull<double>, restitution, "e as measured", "1"),
       (OrNull<double>, restitution_sd, "its stated standard deviation; null if the point states "
        "none", "1"),
@@ -542,6 +557,7 @@ struct FitFile {
     (std::vector<RestitutionRangeEntry>, restitution_range, about_restitution_range),
     (VelocityDependenceEntry, velocity_dependence, about_velocity_dependence),
     (SeriesDifferEntry, series_differ, about_series_differ),
+    (std::vector<FrictionEntry>, friction, about_friction),
     (std::vector<LossLawEntry>, loss_laws, "without adhesion, and if the fit file names no loss: "
      "every loss law, the best first"),
     (Options, options, "the options in use, after command line and defaults"),

@@ -123,6 +123,7 @@ Table dataset_table(const Dataset& dataset) {
        {"conditions", condition_words(dataset.system)},
        {"sizes", Sentence(dataset.mixed_sizes ? mixed_sizes_words(*dataset.mixed_sizes) : "")},
        {"columns", column_words(dataset)},
+       {"velocities", Sentence(normal_component_words(dataset))},
        {"points", say("{} in {} series", dataset.points.size(), dataset.series.size())},
        {"sha256", Sentence(dataset.sha256)}});
 }

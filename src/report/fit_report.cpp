@@ -271,7 +271,8 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                                  capture_words(a), loss_words(a), odd_point_words(a)};
   std::erase(leads, Sentence());
   answer.blocks = {Paragraph{join(leads, " "), true},
-                   Paragraph{join(restitution_sentences(a.datasets, a.fitted.model), " ")}};
+                   Paragraph{join(restitution_sentences(a.datasets, a.fitted.model), " ")},
+                   Paragraph{join(friction_sentences(a.datasets), " ")}};
   append(answer.blocks, data_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back(shown_section("picture", "", {answer_figures(a, panels)}));

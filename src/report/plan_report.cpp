@@ -290,6 +290,8 @@ std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset) 
         row += fmt::format("{:.6g}", setting.diameter / factor);
       } else if (quantity == Quantity::incident_velocity) {
         row += fmt::format("{:.6g}", setting.velocity / factor);
+      } else if (quantity == Quantity::incidence_angle) {
+        row += "0";  // planned along the normal
       } else if (quantity == Quantity::events) {
         row += fmt::format("{}", plan.options.events);
       }

@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "estimate/friction.hpp"
 #include "estimate/likelihood.hpp"
 #include "estimate/noise_doubt.hpp"
 #include "estimate/restitution_summary.hpp"
@@ -603,9 +604,9 @@ std::vector<FitFile::CurvePoint> curve_of(const Analysis& a) {
 
 std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
   const FitResult& f = a.fitted;
-  std::vector<std::optional<double>> stated;
+  std::vector<const ImpactPoint*> stated;
   for (const Dataset& dataset : a.datasets) {
-    for (const ImpactPoint& point : dataset.points) stated.push_back(point.restitution_sd);
+    for (const ImpactPoint& point : dataset.points) stated.push_back(&point);
   }
   std::vector<FitFile::Residual> rows;
   for (std::size_t i = 0; i < f.data.points.size(); ++i) {
@@ -617,8 +618,9 @@ std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
                     .series = in_series ? dataset.series[point.series] : "",
                     .diameter_um = in_um(point.diameter),
                     .incident_velocity = point.velocity,
+                    .incidence_angle_deg = in_degrees(stated.at(i)->incidence_angle),
                     .restitution = only_if(!point.counts_only(), point.restitution),
-                    .restitution_sd = stated.at(i),
+                    .restitution_sd = stated.at(i)->restitution_sd,
                     .sd_used = own.sd,
                     .sd_of_e2_from_inputs = own.input_sd,
                     .captured = point.rebounds() == 0,
@@ -629,6 +631,23 @@ std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
                     .leverage = at(f.leverage, i)});
   }
   return rows;
+}
+
+std::vector<FrictionEntry> friction_entries(const std::vector<Dataset>& datasets) {
+  std::vector<FrictionEntry> entries;
+  for (const Dataset& dataset : datasets) {
+    const std::optional<Friction> found = fit_friction(dataset);
+    if (!found) continue;
+    const std::string rolling = found->least ? "all points may roll" : "";
+    entries.push_back(
+        {.dataset = dataset.id,
+         .mu = {found->mu, rolling},
+         .interval = {found->interval, found->least ? rolling : "one point shows no scatter"},
+         .lower_limit = found->least,
+         .points = found->points,
+         .sliding = found->sliding});
+  }
+  return entries;
 }
 
 }  // namespace
@@ -712,6 +731,7 @@ std::string fit_json(const Analysis& a) {
   out.dataset = joint_entry(a.datasets);
   for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
   set_restitution(out, a.datasets, f.model);
+  out.friction = friction_entries(a.datasets);
   for (const LossFit& law : a.losses) out.loss_laws.push_back({law.id, law.delta_aicc});
   out.options = options_of(a);
   out.model = model_of(a);

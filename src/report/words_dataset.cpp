@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "mechanism/survivors_mean.hpp"
@@ -61,12 +63,16 @@ std::vector<Block> data_banners(const std::vector<Dataset>& datasets) {
       if (warning.remark != PointRemark::unmarked_zero) continue;
       banners.emplace_back(Paragraph{as_sentence(Sentence(warning_sentence(warning)))});
     }
+    const std::string oblique = normal_component_words(dataset);
+    if (oblique.empty()) continue;
+    const std::string of = datasets.size() > 1 ? dataset.id + ": " : "";
+    banners.emplace_back(Paragraph{as_sentence(Sentence(of + oblique))});
   }
   return banners;
 }
 
 std::string warning_sentence(const DatasetWarning& warning) {
-  const auto points_with = [&](const char* what, const char* advice) {
+  const auto points_with = [&](const char* what, const std::string& advice) {
     return fmt::format("{} with {} ({} line {}): {}", counted(warning.count, "point"), what,
                        warning.count == 1 ? "in" : "first in", warning.first_line, advice);
   };
@@ -79,6 +85,13 @@ std::string warning_sentence(const DatasetWarning& warning) {
                          "taken as captured, since no rebound has a velocity of 0");
     case PointRemark::unusual_diameter:
       return points_with("a diameter above 1 mm", "kept; check the unit if these are microspheres");
+    case PointRemark::oblique:
+      return points_with(
+          "an angle of incidence above 8 degrees",
+          fmt::format(
+              "kept, up to {:.3g} degrees; Li, Dunn & Brach (1999) kept to 8 degrees of the "
+              "normal",
+              in_degrees(warning.largest)));
     case PointRemark::repeated:
       return points_with("the same series, diameter, velocity and restitution as an earlier one",
                          "kept; a point copied by accident counts twice");
@@ -87,6 +100,21 @@ std::string warning_sentence(const DatasetWarning& warning) {
              "changed since; correct 'bytes' and 'hash' there, or remove them";
   }
   return "";
+}
+
+std::string normal_component_words(const Dataset& dataset) {
+  std::size_t oblique = 0;
+  double largest = 0.0;
+  for (const ImpactPoint& point : dataset.points) {
+    if (!(point.incidence_angle > 0.0)) continue;
+    ++oblique;
+    largest = std::max(largest, point.incidence_angle);
+  }
+  if (oblique == 0) return "";
+  return fmt::format(
+      "V is the normal component of the velocity, incident_velocity times cos(incidence_angle), of "
+      "{} at up to {:.3g} degrees",
+      counted(static_cast<long long>(oblique), "point"), in_degrees(largest));
 }
 
 std::string mixed_sizes_words(const MeasuredSizes& sizes) {

@@ -15,11 +15,16 @@ namespace recoil {
 std::string provenance_sentence(Provenance provenance);
 
 /// What the reader has to know about the points first: a banner for each provenance among the
-/// datasets, and a sentence about restitutions of 0 that count as captures.
+/// datasets, and sentences about restitutions of 0 that count as captures and about angles of
+/// incidence.
 std::vector<Block> data_banners(const std::vector<Dataset>& datasets);
 
 /// A warning about points: "2 points with a restitution above 1 (first in line 5): ...".
 std::string warning_sentence(const DatasetWarning& warning);
+
+/// "V is the normal component ..., of 12 points at up to 23 degrees"; empty if no point states an
+/// angle of incidence above 0.
+std::string normal_component_words(const Dataset& dataset);
 
 /// The sizes over which each point averages: "every point averages over 20 to 110 um ...".
 std::string mixed_sizes_words(const MeasuredSizes& sizes);

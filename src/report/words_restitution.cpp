@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "data/text.hpp"
+#include "estimate/friction.hpp"
 #include "estimate/restitution_summary.hpp"
 #include "report/format.hpp"
 
@@ -160,6 +161,30 @@ std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets
       sentences.push_back(say("The series differ in {e} ({}): {} and {} by {:.2g} {}.", p, name(0),
                               name(1), *differ.value, ends_words(differ, 1.0)));
     }
+  }
+  return sentences;
+}
+
+std::vector<Sentence> friction_sentences(const std::vector<Dataset>& datasets) {
+  std::vector<Sentence> sentences;
+  for (const Dataset& dataset : datasets) {
+    const std::optional<Friction> found = fit_friction(dataset);
+    if (!found) continue;
+    const std::string on = datasets.size() > 1 ? " on " + dataset.id : "";
+    const std::string points = counted(static_cast<long long>(found->points), "point");
+    if (!found->mu) {
+      sentences.push_back(
+          say("Friction{}: the tangential restitutions of {} agree with rolling, so only a lower "
+              "limit is known, mu at least {:.2g}.",
+              on, points, *found->least));
+      continue;
+    }
+    Number mu{*found->mu, padded(3)};
+    if (found->interval) mu.band = {(*found->interval)[0], (*found->interval)[1]};
+    sentences.push_back(say(
+        "Friction{}: mu = {} from the tangential restitutions of {}, of which "
+        "{} slid to the end{}.",
+        on, mu, points, found->sliding, found->interval ? "" : " (one point gives no interval)"));
   }
   return sentences;
 }

@@ -16,6 +16,9 @@ namespace recoil {
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
                                             const ImpactModel& model);
 
+/// The coefficient of friction of every dataset with tangential restitutions; empty without any.
+std::vector<Sentence> friction_sentences(const std::vector<Dataset>& datasets);
+
 /// The mean e of every series and setting; empty if there is only one.
 Table restitution_table(const std::vector<Dataset>& datasets);
 

@@ -70,6 +70,48 @@ TEST(Table, SettingsAndConditionsComeAlong) {
   EXPECT_DOUBLE_EQ(*pressure(2), 1e3);
 }
 
+TEST(Table, AnAngleOfIncidenceIsKnownByItsUsualNames) {
+  const Place place;
+  int number = 0;
+  for (const char* name : {"incidence_angle [deg]", "angle (deg)", "Incidence angle (°)",
+                           "angle of incidence [deg]", "incident angle [deg]"}) {
+    SCOPED_TRACE(name);
+    auto request = place.request(
+        std::string("V,") + name + ",Vr,tangential restitution\n2,60,0.8,0.9\n", ImportFormat::csv);
+    request.map = {"incident_velocity=V:m/s,rebound_velocity=Vr:m/s"};
+    request.into = place.folder() / std::to_string(number++);
+    request.scatter = "10%";
+    recoil::import_points(request);
+    const Dataset made = recoil::load_dataset(request.into);    // as written
+    EXPECT_NEAR(made.points[0].incident_velocity, 1.0, 1e-12);  // 2 cos(60 deg)
+    EXPECT_NEAR(made.points[0].restitution, 0.8, 1e-12);
+    EXPECT_NEAR(made.points[0].restitution_sd.value(), 0.08, 1e-12);
+    EXPECT_EQ(made.points[0].tangential_restitution, 0.9);
+  }
+  EXPECT_THAT(place.read("0/points.csv"), HasSubstr(",60,0.9"));  // in degrees
+}
+
+TEST(Table, RadiansOfTheMapAndAnglesThatCannotBeUsed) {
+  const Place place;
+  const auto request_of = [&](const std::string& text, const std::string& map) {
+    auto request = place.request(text, ImportFormat::csv);
+    request.map = {"incident_velocity=V:m/s,restitution=e" + map};
+    return request;
+  };
+  EXPECT_THAT(complaint(request_of("V,e,angle\n2,0.5,60\n", "")),
+              AllOf(HasSubstr("input.csv:1:5: the unit of 'angle' is not stated"),
+                    HasSubstr("--map 'incidence_angle=\"angle\":UNIT'"), HasSubstr("header")));
+  EXPECT_THAT(complaint(request_of("V,e,angle\n2,0.5,95\n", ",incidence_angle=angle:deg")),
+              AllOf(HasSubstr("input.csv:2:1: incidence_angle = 95 deg"), HasSubstr("below 90")));
+  EXPECT_THAT(complaint(request_of("V,e,et\n2,0.5,0.8\n", ",tangential_restitution=et")),
+              AllOf(HasSubstr("input.csv:2:7: a tangential restitution without an incidence angle"),
+                    HasSubstr("--map incidence_angle=COLUMN:deg")));
+  const auto made =
+      recoil::import_points(request_of("V,e,a\n2,0.5,1.2\n3,0.6,\n", ",incidence_angle=a:rad"));
+  ASSERT_EQ(made.dataset.points.size(), 1U);  // the row without an angle is left out
+  EXPECT_NEAR(made.dataset.points[0].incident_velocity, 2.0 * std::cos(1.2), 1e-10);
+}
+
 TEST(Table, UnitsInTheHeaderAndCounts) {
   const Place place;
   auto request = place.request(

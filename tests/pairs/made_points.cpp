@@ -278,6 +278,9 @@ class Experiment {
   std::vector<Point> points_;
 };
 
+/// The angle between the path of a point's spheres and the normal, where it is stated [deg].
+double degrees_of(const Point& point) { return point.series == "s0" ? 6.0 : 25.0; }
+
 /// A column of points.csv.
 struct Column {
   std::string name, unit;
@@ -285,21 +288,27 @@ struct Column {
 };
 
 std::vector<Column> columns_of(const Choice& choice) {
-  const auto is = [&](const std::string& feature, const std::string& form) {
+  const auto is = [&choice](const std::string& feature, const std::string& form) {
     return choice.at(feature) == form;
   };
   const auto number = [](double value) { return fmt::format("{:.6f}", value); };
+  // The velocities of the points are along the normal, those of the table along the path.
+  const auto cosine = [=](const Point& p) {
+    return is("incidence_angle", "yes") ? std::cos(degrees_of(p) * std::numbers::pi / 180.0) : 1.0;
+  };
   std::vector<Column> columns = {
       {"series", "", [](const Point& p) { return p.series; }},
       {"diameter", "um", [=](const Point& p) { return number(p.diameter * 1e6); }},
-      {"incident_velocity", "m/s", [=](const Point& p) { return number(p.velocity); }},
+      {"incident_velocity", "m/s", [=](const Point& p) { return number(p.velocity / cosine(p)); }},
       {"restitution", "1",
        [=](const Point& p) { return p.restitution ? number(*p.restitution) : std::string(); }}};
   const auto add = [&](bool is_there, const std::string& name, const std::string& unit,
                        const std::function<std::string(const Point&)>& cell) {
     if (is_there) columns.push_back({name, unit, cell});
   };
-  const auto of_velocity = [=](const Point& p) { return number(relative_input_sd * p.velocity); };
+  const auto of_velocity = [=](const Point& p) {
+    return number(relative_input_sd * p.velocity / cosine(p));
+  };
   const auto of_diameter = [=](const Point& p) {
     return number(relative_input_sd * p.diameter * 1e6);
   };
@@ -308,6 +317,8 @@ std::vector<Column> columns_of(const Choice& choice) {
   add(is("diameter_sd", "yes"), "diameter_sd", "um", of_diameter);
   add(is("setting_velocity_sd", "yes"), "setting_velocity_sd", "m/s", of_velocity);
   add(is("series_diameter_sd", "yes"), "series_diameter_sd", "um", of_diameter);
+  add(is("incidence_angle", "yes"), "incidence_angle", "deg",
+      [=](const Point& p) { return number(degrees_of(p)); });
   add(!is("setting", "no"), "setting", "", [](const Point& p) { return p.setting; });
   add(is("launch", "yes"), "launch", "", [](const Point& p) { return p.launch; });
   add(!is("captures", "none") || is("sizes", "mixed"), "events", "1",
@@ -400,6 +411,7 @@ const std::vector<Feature>& features() {
       {"series_diameter_sd", no_or_yes},
       {"setting", {"no", "estimated", "stated"}},
       {"launch", no_or_yes},
+      {"incidence_angle", no_or_yes},
       {"materials", {"exact", "propagated", "adjusted", "averaged"}},
       {"residuals", {"normal", "student"}},
       {"scheme", {"parametric", "residual", "wild", "case", "cluster"}},

@@ -51,6 +51,26 @@ TEST(DatasetDocument, SaysWhatWasReadWithUnits) {
   EXPECT_THAT(titles(dataset), testing::ElementsAre("Dataset", "Series", "Sources"));
 }
 
+TEST(DatasetDocument, SaysThatNormalComponentsAreUsed) {
+  const std::string package = support::changed(
+      example::package, "{ \"name\": \"restitution_sd\"",
+      "{ \"name\": \"incidence_angle\", \"type\": \"number\", \"unit\": \"deg\" },\n"
+      "{ \"name\": \"restitution_sd\"");
+  const Dataset dataset = dataset_of(
+      package,
+      "series,diameter,incident_velocity,restitution,incidence_angle,restitution_sd,velocity_sd,"
+      "events,captured\n"
+      "a,5,2,0.7,5,,,,\na,5,3,0.8,0,,,,\na,5,4,0.8,12.5,,,,\na,5,5,0.8,31,,,,\n");
+  EXPECT_THAT(value_of(dataset_table(dataset), "velocities"),
+              HasSubstr("the normal component of the velocity, incident_velocity times "
+                        "cos(incidence_angle), of 3 points at up to 31 degrees"));
+  ASSERT_EQ(dataset.warnings.size(), 1U);
+  EXPECT_THAT(warning_sentence(dataset.warnings.front()),
+              testing::StartsWith("2 points with an angle of incidence above 8 degrees (first in "
+                                  "line 4): kept, up to 31 degrees"));
+  EXPECT_EQ(value_of(dataset_table(dataset_of(example::package)), "velocities"), "");
+}
+
 TEST(DatasetDocument, ShowsOverridesAndWarnings) {
   const Dataset dataset =
       dataset_of(support::changed(example::package, "\"provenance\"",

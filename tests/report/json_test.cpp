@@ -249,6 +249,35 @@ TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
   EXPECT_TRUE(PlainJson::accept(fit_json(analysis)));
 }
 
+TEST(FitJson, HasTheAnglesOfThePointsAndTheirFriction) {
+  Analysis a = sample::four_diameters();
+  EXPECT_TRUE(PlainJson::parse(fit_json(a))["friction"].empty());
+  std::size_t i = 0;
+  for (ImpactPoint& point : a.datasets[0].points) {
+    point.incidence_angle = 0.8 + 0.01 * static_cast<double>(i++);
+    if (point.restitution > 0.0) {
+      point.tangential_restitution =
+          1.0 - 0.05 * (1.0 + point.restitution) / std::tan(point.incidence_angle);
+    }
+  }
+  const PlainJson json = PlainJson::parse(fit_json(a));
+  ASSERT_EQ(json["friction"].size(), 1U);
+  const PlainJson& friction = json["friction"][0];
+  EXPECT_EQ(friction["dataset"], a.datasets[0].id);
+  EXPECT_NEAR(friction["mu"], 0.05, 1e-9);
+  EXPECT_NEAR(friction["interval"][0], 0.05, 1e-6);
+  EXPECT_TRUE(friction["lower_limit"].is_null());
+  EXPECT_EQ(friction["sliding"], friction["points"]);
+  EXPECT_NEAR(json["residuals"][1]["incidence_angle_deg"], 0.81 * 57.29577951308232, 1e-9);
+  for (ImpactPoint& point : a.datasets[0].points) {
+    if (point.tangential_restitution) point.tangential_restitution = 5.0 / 7.0;
+  }
+  const PlainJson rolling = PlainJson::parse(fit_json(a))["friction"][0];
+  EXPECT_TRUE(rolling["mu"].is_null());
+  EXPECT_EQ(rolling["mu_why"], "all points may roll");
+  EXPECT_GT(rolling["lower_limit"], 0.1);
+}
+
 TEST(FitJson, SaysWhyAMethodHasNoStandardError) {
   Analysis a = sample::four_diameters();
   std::vector<ComparisonRow>& rows = a.uncertainty.two_point.front().rows;

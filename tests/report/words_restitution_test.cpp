@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "example_analysis.hpp"
 #include "report/format.hpp"
 
@@ -43,6 +45,30 @@ std::string text_of(const Dataset& data, bool adhesion) {
     EXPECT_FALSE(adheres_anywhere(model));
   }
   return plain_text(join(restitution_sentences({data}, model), " "));
+}
+
+TEST(FrictionWords, SayTheCoefficientOrItsLimit) {
+  Dataset data = dataset_of({{0, 5.0, 1.0, 0.8}, {0, 5.0, 2.0, 0.8}, {0, 5.0, 3.0, 0.8}});
+  EXPECT_TRUE(friction_sentences({data}).empty());
+  const auto set = [&](std::size_t i, double tangent, double e_t) {
+    data.points[i].incidence_angle = std::atan(tangent);
+    data.points[i].tangential_restitution = e_t;
+  };
+  // 1.8 mu / tan(angle) of mu = 0.1: 0.18, 0.09 and 0.36, which is above 2/7
+  set(0, 1.0, 1.0 - 0.18);
+  EXPECT_EQ(plain_text(join(friction_sentences({data}), " ")),
+            "Friction: mu = 0.100 from the tangential restitutions of 1 point, of which 1 slid to "
+            "the end (one point gives no interval).");
+  set(1, 2.0, 1.0 - 0.09);
+  set(2, 0.5, 5.0 / 7.0);
+  EXPECT_EQ(plain_text(join(friction_sentences({data}), " ")),
+            "Friction: mu = 0.100 [0.100, 0.100] from the tangential restitutions of 3 points, of "
+            "which 2 slid to the end.");
+  set(0, 1.0, 5.0 / 7.0);
+  set(1, 2.0, 5.0 / 7.0);  // 2/7 tan / 1.8 = 0.317
+  EXPECT_EQ(plain_text(join(friction_sentences({data}), " ")),
+            "Friction: the tangential restitutions of 3 points agree with rolling, so only a lower "
+            "limit is known, mu at least 0.32.");
 }
 
 TEST(RestitutionWords, SayWhatWasMeasuredWithAdhesion) {

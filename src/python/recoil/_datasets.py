@@ -27,7 +27,7 @@ _UNITS = {
     "diameter": "um", "diameter_sd": "um", "series_diameter_sd": "um",
     "incident_velocity": "m/s", "rebound_velocity": "m/s",
     "velocity_sd": "m/s", "setting_velocity_sd": "m/s",
-    "restitution": "1", "restitution_sd": "1",
+    "restitution": "1", "restitution_sd": "1", "tangential_restitution": "1",
 }
 _TEXTS = ("series", "setting", "launch")
 _COUNTS = ("events", "captured")
@@ -157,8 +157,9 @@ class Dataset:
         ``frame``: one row per point, columns as in points.csv: ``series``, ``diameter`` [um],
         ``incident_velocity`` [m/s], ``restitution`` [1] or ``rebound_velocity`` [m/s]; optional
         ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
-        ``captured``, ``setting``, ``setting_velocity_sd`` and the conditions. Missing values are
-        empty cells.
+        ``captured``, ``setting``, ``setting_velocity_sd``, ``incidence_angle`` (its unit, ``"deg"``
+        or ``"rad"``, has to be in ``units``), ``tangential_restitution`` and the conditions.
+        Missing values are empty cells.
         Without ``series``, the points of each diameter form a series.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
