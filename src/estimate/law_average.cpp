@@ -35,9 +35,9 @@ struct Screened {
   std::vector<double> theta;
 };
 
-/// The fits under one kernel, for all sizes of the error.
-std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
-                                    double prior_weight, const Observations& data) {
+/// The fits under one of `kernels` equally likely kernels, for all sizes of the error.
+std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior, double kernels,
+                                    const Observations& data) {
   std::vector<Screened> found;
   Noise noise = exact.weights.noise;
   noise.constants_weight = 1.0;
@@ -49,8 +49,9 @@ std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
   options.parameters = 0.02;
   options.scale = 0.01;
   std::vector<double> theta = exact.theta;
-  for (const double size : sizes_of_error) {
-    const double before = std::exchange(prior.size, size);
+  for (const LawErrorSize& of : sizes_of_law_error()) {
+    if (of.size == 0.0) continue;
+    const double before = std::exchange(prior.size, of.size);
     const ImpactModel model = with_law_error(exact.model, prior, data.conditions());
     // g stays where it was.
     for (std::size_t j = exact.theta.size(); j < theta.size(); ++j) theta[j] *= before / prior.size;
@@ -59,8 +60,8 @@ std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
     if (!fit.run.ended()) continue;
     theta = fit.run.theta;
     noise = fit.weights.noise;
-    found.push_back(
-        {prior, prior_weight, restricted_criterion(model, data, fit.run, fit.weights), theta});
+    found.push_back({prior, of.prior / kernels,
+                     restricted_criterion(model, data, fit.run, fit.weights), theta});
   }
   return found;
 }
@@ -90,10 +91,8 @@ FitResult averaged_here(const ImpactModel& model, Observations&& data, const Fit
   }
   kernels.push_back({.length = long_length, .at_capture = true});
   std::vector<std::vector<Screened>> screened(kernels.size());
-  const double each =
-      (1.0 - exact_prior) / static_cast<double>(kernels.size() * sizes_of_error.size());
   parallel_over(kernels.size(), options.threads, [&](std::size_t k) {
-    screened[k] = screen_kernel(exact, kernels[k], each, same_noise);
+    screened[k] = screen_kernel(exact, kernels[k], static_cast<double>(kernels.size()), same_noise);
   });
   std::vector<Screened> all = {{{}, exact_prior, exact.criterion, exact.theta}};
   for (std::vector<Screened>& of_kernel : screened) {
