@@ -95,9 +95,10 @@ void run_init(const GivenOptions& given) {
   NewFiles made({folder / package_file_name, folder / "points.csv", fit_file});
   ImportResult result;
   if (points.empty()) {
-    if (given.has("--sheet")) {
-      throw InputError({}, "--sheet without --points", "it chooses a sheet of the points",
-                       "name a workbook with --points, or leave --sheet out");
+    for (const char* option : {"--sheet", "--map"}) {
+      if (!given.has(option)) continue;
+      throw InputError({}, fmt::format("{} without --points", option), "it says how to read points",
+                       fmt::format("name their file with --points, or leave {} out", option));
     }
     if (!given.has("--diameter")) {
       throw InputError({}, "the diameter of the spheres is not known", "",
@@ -107,6 +108,7 @@ void run_init(const GivenOptions& given) {
   } else {
     request.file = points;
     request.sheet = given.text("--sheet");
+    request.map = given.texts("--map");
     request.provenance = value_named<Provenance>(given.text("--provenance"));
     result = import_points(request);
   }

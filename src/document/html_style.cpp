@@ -120,7 +120,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   h1 { font-size: 1.4rem; }
   th, td { padding: .38rem .6rem; }
   th, td, tbody th, table.compact td { white-space: normal; overflow-wrap: anywhere; }
-  td:not(.words) { overflow-wrap: break-word; }
+  thead th, td:not(.words) { overflow-wrap: break-word; }
   td.prose { min-width: 0; }
   .stack thead { display: none; }
   .stack tr { display: block; padding: .3rem 0; border-top: 1px solid var(--line); }

@@ -4,10 +4,10 @@
 namespace recoil {
 namespace {
 
-/// The force of lubrication between a sphere and a wall at the gap x is 6 pi mu r^2 v / x (r << x
-/// is not required of the film, but x << r). From the thickness of the film to the tips of the
-/// asperities it takes the speed (6 pi mu r^2 / m) ln(delta / h). A film that does not cover the
-/// asperities takes none: ln(delta / h) is written as ln(1 + (delta / h)^2) / 2.
+/// The force of lubrication between a sphere and a wall at the gap x << r is 6 pi mu r^2 v / x.
+/// From the thickness of the film to the tips of the asperities it takes the speed (6 pi mu r^2 /
+/// m) ln(delta / h). A film that does not cover the asperities takes none: ln(delta / h) is written
+/// as ln(1 + (delta / h)^2) / 2.
 struct LiquidFilm : ResistingFilm<LiquidFilm> {
   /// Speed lost on one way.
   template <class T>

@@ -114,7 +114,7 @@ const std::vector<OptionRow>& option_rows() {
       {"import", "--format", one_of(all_names<ImportFormat>()), "what the file holds", required},
       {"import", "--into", path("DIR"), "the dataset's folder", required},
       {"init import", "--sheet", text("NAME"), "sheet of a workbook (default: the first)"},
-      {"import", "--map", repeated(text("QUANTITY=COLUMN:UNIT")),
+      {"init import", "--map", repeated(text("QUANTITY=COLUMN:UNIT")),
        "quantity=column:unit, separated by commas; quantity=a+b+c for repeats in several columns; "
        "quantity=100cm for a constant; a unit may have a factor (0.35mm)"},
       {"import", "--decimal-comma", nothing(), "the decimal mark is a comma (2,5)"},

@@ -22,12 +22,12 @@ Cell number_at(const std::vector<double>& values, std::size_t i, const Notation&
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
 /// The name of f0, with the diameter to which it belongs if no point has it.
-Sentence with_its_size(const Analysis& a, Sentence f0) {
+Sentence with_its_size(const Analysis& a, const Sentence& f0) {
   const double size = a.fitted.model.contacts.front().reference_diameter;
   const bool measured = std::ranges::any_of(a.fitted.data.points, [&](const Observation& point) {
     return std::abs(point.diameter / size - 1.0) < 1e-3;
   });
-  return measured ? f0 : say("{} at {}", std::move(f0), diameter_sentence(size));
+  return measured ? f0 : say("{} at {}", f0, diameter_sentence(size));
 }
 
 Sentence label_with_unit(const Analysis& a, std::size_t slot) {

@@ -66,6 +66,24 @@ TEST(Init, PointsCountAsMeasuredAndDiametersMayHaveUnits) {
       << place.read("mine/points.csv");
 }
 
+TEST(Init, MapsColumnsAsTheRefusalOfAnUnknownHeaderSays) {
+  const Workplace place;
+  place.write("points.csv", "V,e\n100,0.5\n200,0.7\n400,0.8\n800,0.85\n2000,0.87\n");
+  const std::vector<std::string> points = {"--diameter", "5", "--points", "points.csv"};
+  const Outcome refused = init(place, points);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--map incident_velocity=COLUMN:UNIT"), std::string::npos)
+      << refused.err;
+  std::vector<std::string> mapped = points;
+  mapped.insert(mapped.end(), {"--map", "incident_velocity=V:cm/s,restitution=e"});
+  const Outcome made = init(place, mapped);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(place.read("mine/points.csv").find(",5,20,0.87"), std::string::npos)
+      << place.read("mine/points.csv");
+  const Outcome alone = init(place, {"--diameter", "5", "--map", "incident_velocity=V:m/s"});
+  EXPECT_EQ(alone.status, 2);
+}
+
 TEST(Init, AsksNothing) {
   const Workplace place;
   // script(1) gives the program a terminal
