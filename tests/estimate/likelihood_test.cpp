@@ -16,10 +16,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double sd = 0.01;
+constexpr double restitution_spread = 0.01;
 
 /// V [m/s] and e of 60 impacts under C_H = 0.003, C_A = 0.03 s/m, with normal noise of 0.01.
-constexpr std::array<std::pair<double, double>, 60> points = {
+constexpr std::array<std::pair<double, double>, 60> bounces = {
     {{1.6, 0.82328},     {1.66998, 0.78661}, {1.74302, 0.82482}, {1.81926, 0.82270},
      {1.89883, 0.83093}, {1.98189, 0.83978}, {2.06857, 0.82768}, {2.15905, 0.85100},
      {2.25348, 0.84966}, {2.35204, 0.89612}, {2.45492, 0.86935}, {2.56229, 0.86742},
@@ -42,12 +42,12 @@ FitResult fit_with(const std::string& noise) {
   data.system.particle = {"polystyrene", 1050.0, 2.78e9, 0.33, std::nullopt};
   data.system.surface = {"silicon", 2330.0, 1.29e11, 0.28, std::nullopt};
   data.series = {"one"};
-  for (const auto& [velocity, e] : points) {
+  for (const auto& [velocity, e] : bounces) {
     ImpactPoint point;
     point.diameter = 4.9e-6;
     point.incident_velocity = velocity;
     point.restitution = e;
-    point.restitution_sd = sd;
+    point.restitution_sd = restitution_spread;
     data.points.push_back(point);
   }
   const FitSpec spec = parse_fit("dataset = \"d\"\n" + noise + "[uncertainty]\nmaterials = false\n",
@@ -55,17 +55,20 @@ FitResult fit_with(const std::string& noise) {
   return fit(make_model(spec, {data}), gather({data}, spec));
 }
 
-/// -2 ln of the product of the densities `density` of (e - e_model) / sd, in units of e.
+/// -2 ln of the product of the densities `density` of (e - e_model) / restitution_spread, in units
+/// of e.
 template <class Density>
 double by_hand(const FitResult& fitted, const Density& density) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum -= 2.0 * std::log(density((points[i].second - fitted.prediction[i]) / sd) / sd);
+  for (std::size_t i = 0; i < bounces.size(); ++i) {
+    sum -= 2.0 * std::log(density((bounces[i].second - fitted.prediction[i]) / restitution_spread) /
+                          restitution_spread);
   }
   return sum;
 }
 
-// The residuals of a fit are those of e^2, which changes the sums by about (sd / e)^2 per point.
+// The residuals of a fit are those of e^2, which changes the sums by about (restitution_spread /
+// e)^2 per point.
 constexpr double tolerance = 60 * 1.6e-4;
 
 TEST(Likelihood, OfNormalResiduals) {
@@ -88,7 +91,7 @@ TEST(Likelihood, OfStudentResiduals) {
 
 TEST(Likelihood, CannotBeComparedByTheCalibratedStatistic) {
   // The sums in units of the standard deviation were computed elsewhere from such residuals.
-  const double of_sd = -2.0 * 60.0 * std::log(1.0 / sd);
+  const double of_sd = -2.0 * 60.0 * std::log(1.0 / restitution_spread);
   const FitResult normal = fit_with("");
   const FitResult student = fit_with("[noise]\nresiduals = \"student\"\n");
   EXPECT_NEAR(minus_two_log_likelihood(normal).value() - of_sd, 178.95, 0.02);
