@@ -37,7 +37,9 @@ LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
 
 LawErrors allowed_law_errors(std::optional<double> stated, const Observations& data) {
   LawErrors laws{sizes_of_law_error(), smooth_functions(data)};
-  std::erase_if(laws.sizes, [](const LawErrorSize& one) { return one.size < least_law_error; });
+  std::erase_if(laws.sizes, [](const LawErrorSize& one) {
+    return one.size < least_law_error || one.size > largest_law_error_of_base;
+  });
   double sum = 0.0;
   for (const LawErrorSize& one : laws.sizes) sum += one.prior;
   for (LawErrorSize& one : laws.sizes) one.prior /= sum;

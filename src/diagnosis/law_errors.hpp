@@ -22,6 +22,9 @@ inline constexpr double usual_law_error = 0.1;
 /// error explains [1].
 inline constexpr double least_law_error = 0.03;
 
+/// The largest size of this error: what a larger one would explain, has a cause [1].
+inline constexpr double largest_law_error_of_base = 0.12;
+
 /// The allowed errors of laws: no law of a mechanism, and no base model, is exact. The effect of
 /// every mechanism, Delta = e^2 with it - e^2 without it, has an unknown factor 1 + g(V, d), with g
 /// smooth (`smooth_functions`) and normal with mean 0 and standard deviation `mechanism`. The loss
@@ -31,8 +34,8 @@ inline constexpr double least_law_error = 0.03;
 /// another cause.
 ///
 /// The size s is not assumed: every explanation, with a cause or without, is averaged over the
-/// sizes that a fit averages over (`sizes_of_law_error`), from `least_law_error` on. So a cause
-/// competes with an error of the laws.
+/// sizes that a fit averages over (`sizes_of_law_error`), from `least_law_error` to
+/// `largest_law_error_of_base`. So a cause competes with an error of the laws.
 struct LawErrors {
   std::vector<LawErrorSize> sizes;     ///< s with its prior probability, ascending
   Eigen::MatrixXd functions;           ///< `smooth_functions` of the sample [points x rank]

@@ -16,7 +16,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::array sizes_of_error = {0.015, 0.03, 0.06, 0.12};
+constexpr std::array sizes_of_error = {0.015, 0.03, 0.06, 0.12, 0.24};
 constexpr double exact_prior = 0.1;
 constexpr double short_length = 0.8, long_length = 1.6;
 constexpr std::size_t most_sizes = 12;  // sizes that may have an error each

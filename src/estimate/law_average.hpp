@@ -19,10 +19,10 @@ std::vector<LawErrorSize> sizes_of_law_error();
 ///
 /// No law of an impact is exact, and how wrong it is, is not known before the fit. So the size of
 /// its error (`LawError`) has a prior, which is written here before any data are seen:
-/// - the laws are exact with a probability of 10 %; else they are wrong by 1.5, 3, 6 or 12 % of the
-///   loss, with a constant density in s: every size up to the largest is equally likely, so that
-///   intervals include what published laws differ by (6 to 12 %) where the points cannot tell.
-///   Larger errors are another cause, which a diagnosis names;
+/// - the laws are exact with a probability of 10 %; else they are wrong by 1.5, 3, 6, 12 or 24 % of
+///   the loss, with a constant density in s: every size up to the largest is equally likely.
+///   Published laws differ by 6 to 12 %. A bend of this size that the dampings absorb moves them by
+///   two of its standard deviations, so the largest size is twice as large;
 /// - the error bends over 0.8 or 1.6 in ln V, a factor of 2.2 or 5 in V. A shorter bend is noise of
 ///   the points, and a longer one is a change of the dampings;
 /// - sizes share it or have their own, or it belongs to slow impacts and falls as 1 / V^2. These
