@@ -53,8 +53,9 @@ inline constexpr Range incidence_angle{
 /// Li, Dunn & Brach (1999) kept to 8 degrees of the normal. A larger angle is kept with a warning
 /// [rad].
 inline constexpr double usual_incidence_angle = 8.0 * std::numbers::pi / 180.0;
-/// Negative if the sphere leaves backwards, as an elastic contact can cause (Maw, Barber & Fawcett
-/// 1976, Wear 38, 101-114).
+/// A solid sphere without spin that rolls off keeps 5/7, and 3/7 if its contact point goes back as
+/// fast as it came (an ideal superball: Cross 2002, Am. J. Phys. 70, 1093-1102). Spin before the
+/// impact adds 2/7 of its surface speed to the first: with backspin e_t can be negative.
 inline constexpr Range tangential_restitution{
     -1.0, 1.2, "1", "it is a ratio of tangential velocities; in per cent its unit is %"};
 

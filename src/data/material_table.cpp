@@ -74,6 +74,19 @@ constexpr TabledMaterial materials[] = {
                "modulus, three times the shear modulus); Callister, W. D. & Rethwisch, D. G. "
                "(2008), table B.2 (the highest, of styrene-butadiene); rubber is almost "
                "incompressible"},
+    // Elastic constants [GPa]: c11 496.8, c33 498.1, c44 147.4, c12 163.6, c13 110.9, c14 -23.5.
+    // Young's modulus is 461 GPa along c, 425 GPa along a.
+    {.name = "sapphire",
+     .what = "single crystal, along any direction",
+     .density = 3980.0,
+     .lowest_modulus = 336.0 * GPa,
+     .highest_modulus = 461.0 * GPa,
+     .poisson_ratio = 0.23,
+     .poisson_ratio_sd = 0.02,
+     .source = "Aggarwal, R. & Ramdas, A. (2019). Physical Properties of Diamond and Sapphire, CRC "
+               "Press, chapter 4: the elastic constants of Wachtman et al., from which follow the "
+               "smallest and the largest Young's modulus of all directions and the mean Poisson's "
+               "ratio; density after Roditi International, Sapphire Properties"},
     {"silicon", "single crystal, along [100]", 2330.0, 129.0 * GPa, 129.0 * GPa, 0.28},
     {"silicon-carbide", "sintered", 3200.0, 207.0 * GPa, 483.0 * GPa, 0.16},
     {.name = "stainless",
@@ -96,6 +109,16 @@ constexpr TabledMaterial materials[] = {
      0.30, 0.01, 1650.0 * MPa},
     {"steel", "alloy 4140, normalised", 7850.0, 207.0 * GPa, 207.0 * GPa, 0.30, 0.01, 655.0 * MPa},
     {"titanium", "Ti-6Al-4V, annealed", 4430.0, 114.0 * GPa, 114.0 * GPa, 0.34, 0.01, 830.0 * MPa},
+    {.name = "tungsten-carbide",
+     .what = "cemented, 6 % cobalt",
+     .density = 14900.0,
+     .lowest_modulus = 624.0 * GPa,
+     .highest_modulus = 624.0 * GPa,
+     .poisson_ratio = 0.21,
+     .source =
+         "Foote, K. G. & MacLennan, D. N. (1984). J. Acoust. Soc. Am. 75, 612-616: density "
+         "and speeds of sound (6864 and 4161.2 m/s) of calibration spheres, from which follow "
+         "Young's modulus and Poisson's ratio"},
     {"zirconia", "3 mol% yttria", 6000.0, 205.0 * GPa, 205.0 * GPa, 0.31},
 };
 

@@ -15,19 +15,27 @@ std::string without_empty_exponent(std::string text) {
   return text;
 }
 
+/// The exponent of ten of `value` as it reads with `count` significant digits: -1 for 0.09999 with
+/// three. `value` is finite.
+int written_exponent(double value, int count) {
+  const std::string text = fmt::format("{:.{}e}", value, std::max(0, count - 1));
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
 }  // namespace
 
 std::string number(double value, int count) {
   if (!std::isfinite(value)) return "n/a";
   if (value == 0.0) return "0";
-  const double size = std::abs(value);
-  if (size >= std::pow(10.0, count) && size < 1e6) return fmt::format("{:.0f}", value);
+  if (written_exponent(value, count) >= count && std::abs(value) < 1e6) {
+    return fmt::format("{:.0f}", value);
+  }
   return without_empty_exponent(fmt::format("{:.{}g}", value, count));
 }
 
 std::string digits(double value, int count) {
   if (!std::isfinite(value) || value == 0.0) return number(value, count);
-  const int leading = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int leading = written_exponent(value, count);
   if (leading < -4 || leading > 5) return number(value, count);
   return fmt::format("{:.{}f}", value, std::max(0, count - 1 - leading));
 }
@@ -42,7 +50,7 @@ std::pair<std::string, std::string> number_with_error(double value, double error
         std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
     return {number(value, count), without_empty_exponent(fmt::format("{:.2g}", error))};
   }
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
+  const int decimals = std::clamp(1 - written_exponent(error, 2), 0, 12);
   return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};
 }
 

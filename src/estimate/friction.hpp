@@ -16,8 +16,9 @@ namespace recoil {
 ///   e_t = 1 - mu (1 + e) V_n / V_t,   V_n / V_t = 1 / tan(incidence_angle).
 /// The friction spins a solid sphere (2 m r^2 / 5) until it rolls, which needs 2/7 of m V_t:
 ///   e_t = 5/7   where   mu (1 + e) V_n / V_t > 2/7.
-/// (Impulse and momentum of a rigid body with Coulomb friction, as in Brach & Dunn 1992, Aerosol
-/// Sci. Technol. 16, 51-64.)
+/// (Impulse and momentum of a rigid ball with Coulomb friction: Cross 2002, Am. J. Phys. 70,
+/// 1093-1102. Alumina spheres on glass slide as in the first equation beyond 30 degrees from the
+/// normal: Kharaz, Gorham & Salman 2001, Powder Technol. 120, 281-291.)
 ///
 /// mu minimises S = sum (e_t - e_t(mu))^2 over both branches, with equal weights. The interval is
 /// the range of mu with S <= S_min (1 + t^2 / (n - 1)), where t is the quantile of Student's t with

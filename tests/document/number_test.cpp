@@ -22,8 +22,19 @@ TEST(Number, IsShort) {
   EXPECT_EQ(number(3e-5), "3e-5");
   EXPECT_EQ(number(1.5e-12), "1.5e-12");
   EXPECT_EQ(digits(1.0, 3), "1.00");
+  EXPECT_EQ(number(999.96, 3), "1000");
   EXPECT_EQ(p_value_text(1e-9), "< 1e-6");
   EXPECT_EQ(percent(0.95), "95 %");
+}
+
+TEST(Number, RoundingUpToATenKeepsTheDigits) {
+  EXPECT_EQ(digits(0.1, 3), "0.100");
+  EXPECT_EQ(digits(0.09999999, 3), "0.100");
+  EXPECT_EQ(digits(-9.9999, 3), "-10.0");
+  EXPECT_EQ(digits(9.99, 3), "9.99");
+  EXPECT_EQ(digits(99999.6, 3), "100000");
+  EXPECT_EQ(number_with_error(1.2345, 0.0999).first, "1.23");
+  EXPECT_EQ(number_with_error(1.2345, 0.0999).second, "0.10");
 }
 
 TEST(Number, EveryNotation) {

@@ -504,6 +504,18 @@ TEST(Materials, EveryOneOfTheTableIsAccepted) {
   }
 }
 
+TEST(Materials, TungstenCarbideHasTheSpeedsOfSoundOfItsSource) {
+  const auto found =
+      std::ranges::find(recoil::tabled_materials(), std::string_view("tungsten-carbide"),
+                        &recoil::TabledMaterial::name);
+  ASSERT_TRUE(found != recoil::tabled_materials().end());
+  const double nu = found->poisson_ratio;
+  const double shear = found->youngs_modulus() / (2.0 * (1.0 + nu));
+  const double transverse = std::sqrt(shear / found->density);
+  EXPECT_NEAR(transverse, 4161.2, 5.0);
+  EXPECT_NEAR(transverse * std::sqrt((2.0 - 2.0 * nu) / (1.0 - 2.0 * nu)), 6864.0, 10.0);
+}
+
 TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
   const support::Workplace place;
   place.write("table.csv", "V,e\n1,0.8\n2,0.78\n3,0.77\n4,0.75\n");

@@ -40,9 +40,9 @@ struct FallenImpact {
 };
 
 /// Follows a sphere that hits the surface at the time `hits` [s] with `speed` [m/s], and again
-/// while it comes back. It comes without spin and leaves rolling, v_t' = v_t / (1 + m r^2 / I) with
-/// I = (2/5) m r^2 (Brach 1991, Mechanical Impact Dynamics); friction is enough for that near the
-/// normal: mu > (2/7) tan(theta) / (1 + e).
+/// while it comes back. It comes without spin and leaves rolling, v_t' = v_t / (1 + I / (m r^2))
+/// with I = (2/5) m r^2 (Cross 2002, Am. J. Phys. 70, 1093-1102); friction is enough for that near
+/// the normal: mu > (2/7) tan(theta) / (1 + e).
 /// @param restitution e for a speed; may draw from `random`
 /// @param visit called with every impact
 template <class Restitution, class Visit>
