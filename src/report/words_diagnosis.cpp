@@ -154,10 +154,10 @@ std::string cause_headline(const Diagnosis& d) {
         return doubtful == nullptr ? "No cause in the catalogue explains the residuals"
                                    : doubtful_headline(*doubtful, lead);
       }
-      return fmt::format("Either {}, or {}",
-                         d.base.data.noise.sd_stated ? "the errors are larger than stated"
-                                                     : "points share errors",
-                         other_than_errors(d));
+      return fmt::format(
+          "Either {}, or {}",
+          d.base.data.noise.sd_stated ? "the errors are larger than stated" : "points share errors",
+          other_than_errors(d));
   }
   return "";
 }

@@ -300,8 +300,9 @@ std::string unexplained_words(const Diagnosis& d) {
     return doubtful.empty()
                ? "No cause in the catalogue explains the difference: fit each series separately, "
                  "or state the condition in which they differ."
-               : doubtful + " Fit each series separately, or state the condition in which they "
-                            "differ.";
+               : doubtful +
+                     " Fit each series separately, or state the condition in which they "
+                     "differ.";
   }
   if (const auto* errors = d.answer_if<ErrorsTooSmall>()) {
     return fmt::format(
