@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -37,6 +38,16 @@ std::string history_csv(const SimulatedImpact& simulated) {
   return csv;
 }
 
+/// Over which spheres e averages: "spheres that differ (polydispersity)"; empty if they are alike.
+std::string averaged_words(const ImpactModel& model, std::size_t dataset) {
+  if (averages_over_sizes(model, dataset)) return "the sizes that the dataset states";
+  std::vector<std::string_view> ids;
+  for (const Mechanism* mechanism : model.chain) {
+    if (mechanism->spreads()) ids.push_back(mechanism->info.id);
+  }
+  return ids.empty() ? "" : fmt::format("spheres that differ ({})", fmt::join(ids, ", "));
+}
+
 /// Prints e as a fit predicts it, and the contribution of every mechanism.
 void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diameter,
                       double velocity) {
@@ -53,8 +64,11 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   const double all = square(theta);
   print_text("restitution: {:.8f}\n", std::sqrt(std::max(all, 0.0)));
   print_text("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
-  if (averages_over_sizes(model, dataset)) {
-    print_line("this is the mean over the sizes that the dataset states");
+  if (const std::string spheres = averaged_words(model, dataset); !spheres.empty()) {
+    print_line(fmt::format(
+        "this is the mean of the rebounds over {}; the energies and forces below are those of one "
+        "sphere of the stated diameter, {:.6g} um",
+        spheres, diameter / units::um));
   }
   if (model.chain.empty()) return;
   print_text("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,

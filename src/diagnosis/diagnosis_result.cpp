@@ -149,6 +149,17 @@ const CandidateResult* closest_cause(const Diagnosis& diagnosis) {
   return closest == candidates.end() ? nullptr : &*closest;
 }
 
+const CandidateResult* doubtful_cause(const Diagnosis& diagnosis) {
+  for (const auto* candidates : {&diagnosis.candidates, &diagnosis.pairs}) {
+    const auto found = std::ranges::find_if(*candidates, [](const CandidateResult& c) {
+      return c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
+             c.remaining_p >= tolerated_level;
+    });
+    if (found != candidates->end()) return &*found;
+  }
+  return nullptr;
+}
+
 std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis) {
   const ExtendedModel* const extended = diagnosis.extended();
   std::vector<UnstatedErrors> rivals;

@@ -215,6 +215,10 @@ Evidence evidence_for(const Diagnosis& diagnosis);
 /// null without one.
 const CandidateResult* closest_cause(const Diagnosis& diagnosis);
 
+/// The cause, or else the pair, that leaves no structure and is not named all the same: see its
+/// `set_aside`, or a cause that is not possible fits better. Null without one.
+const CandidateResult* doubtful_cause(const Diagnosis& diagnosis);
+
 /// Unstated errors that explain the data as well as the answer, or without an answer. Next to a
 /// pair of causes also those that fit less well, as they need only one number.
 std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis);

@@ -118,7 +118,7 @@ class PointPredictor {
   std::vector<ImpactResult> first_results_;
 };
 
-/// The typical sphere of a point at the contact, after the mechanisms that act before it.
+/// A sphere of the stated diameter and f0 at the contact, after the mechanisms that act before it.
 ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
                          const PointConditions& point);
 

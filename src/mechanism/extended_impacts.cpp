@@ -241,16 +241,17 @@ std::span<const double> ExtendedImpacts::slopes(std::size_t i) const {
 
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values) {
-  std::size_t nodes = 1;
   ContactView view;
   for (const Mechanism* mechanism : chain) {
-    nodes *= mechanism->spreads() ? spread_nodes : 1;
     view.dashpot = view.dashpot || mechanism->dashpot;
     view.never_pulls = view.never_pulls || mechanism->never_pulls;
   }
   view.encounter = approaching<double>(point, values, point.velocity, point.diameter);
-  approach<double>(chain, values.subspan(base_directions - 2), nodes / 2, nodes, view.encounter);
-  const Encounter<double>& e = view.encounter;
+  Encounter<double>& e = view.encounter;
+  for_each_in_chain<double>(chain, values.subspan(base_directions - 2),
+                            [&](const MechanismLaw<double>& law, std::span<const double> its) {
+                              if (law.before != nullptr) law.before(e, its);
+                            });
   view.groups = groups_at_contact(e).values(!view.never_pulls);
   const double energy = e.mass() * e.velocity * e.velocity;
   view.scales = {e.scale(), e.velocity, e.scale() / e.velocity, energy / e.scale(), energy};
@@ -265,7 +266,6 @@ WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
   WholeImpactEnergy energy;
   for_each_in_chain<double>(chain, own,
                             [&](const MechanismLaw<double>& law, std::span<const double> its) {
-                              if (law.vary != nullptr) law.vary(e, its, 0.0);
                               const double before = e.velocity * e.velocity + e.square;
                               if (law.before != nullptr) law.before(e, its);
                               energy.in.push_back(before - e.velocity * e.velocity - e.square);

@@ -92,7 +92,9 @@ class ExtendedImpacts {
   std::unique_ptr<Workspace<ManyDirections>> many_;
 };
 
-/// The state of one sphere at the contact, for display, and the groups of the base impact.
+/// The state of one sphere at the contact, for display, and the groups of the base impact. If the
+/// spheres of a point differ, it is the sphere of the stated diameter and f0: the mean one for
+/// sizes, the median one for adhesion.
 /// @param values C_H, C_A, f0, then the parameters of the chain
 struct ContactView {
   Encounter<double> encounter;  ///< at the beginning of the contact
@@ -103,8 +105,8 @@ struct ContactView {
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values);
 
-/// The energy budget of one sphere [J], of the typical one if the spheres of a point differ. For an
-/// error of measurement it is the energy of the reading less the true energy.
+/// The energy budget of the sphere of `view_contact` [J]. For an error of measurement it is the
+/// energy of the reading less the true energy.
 struct WholeImpactEnergy {
   double incident = 0.0;    ///< m V^2 / 2 with the measured V
   std::vector<double> in;   ///< loss by each mechanism of the chain on the way in; negative: gain

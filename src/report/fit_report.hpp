@@ -14,8 +14,7 @@ namespace recoil {
 
 /// A caption for curves of points that average over sizes.
 inline constexpr const char* mean_curve_words =
-    "The curve is the mean of the rebounds that are seen: it rises again where only the fastest "
-    "are.";
+    "The curve is the mean of the rebounds that are seen: it rises again where slow ones are not.";
 
 /// e against V of the whole fit: points and curves in one plot, with one colour and mark for each
 /// diameter or, in a fit of several datasets, for each dataset.

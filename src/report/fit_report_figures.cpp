@@ -114,6 +114,11 @@ Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
   if (drawn_every(panel) > 1) text += fmt::format(" One point in {} is drawn.", drawn_every(panel));
   if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
     text += fmt::format(" {}", mean_curve_words);
+    const double slowest = analysis.fitted.model.surroundings[panel.dataset].sizes.slowest_seen;
+    if (slowest > 0.0) {
+      text += say(" Rebounds below {} m/s are not seen, so {e} is at least {} m/s over {V}.",
+                  number(slowest, 2), number(slowest, 2));
+    }
   }
   return text;
 }

@@ -21,20 +21,11 @@ Cell number_at(const std::vector<double>& values, std::size_t i, const Notation&
 
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
-/// The name of f0, with the diameter to which it belongs if no point has it.
-Sentence with_its_size(const Analysis& a, const Sentence& f0) {
-  const double size = a.fitted.model.contacts.front().reference_diameter;
-  const bool measured = std::ranges::any_of(a.fitted.data.points, [&](const Observation& point) {
-    return std::abs(point.diameter / size - 1.0) < 1e-3;
-  });
-  return measured ? f0 : say("{} at {}", f0, diameter_sentence(size));
-}
-
 Sentence label_with_unit(const Analysis& a, std::size_t slot) {
   const Parameter& parameter = *a.fitted.model.slots[slot].parameter;
   const Sentence name = parameter_words(a.fitted.model, slot, a.datasets);
   const bool is_f0 = parameter.role == ParameterRole::adhesion_force;
-  return name_with_unit(is_f0 ? with_its_size(a, name) : name, parameter.unit);
+  return name_with_unit(is_f0 ? with_its_size(a.fitted, name) : name, parameter.unit);
 }
 
 std::size_t free_parameters(const FitResult& fitted) {
@@ -227,7 +218,7 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   Table table;
   table.columns = {{"calibration"},        {symbol("C_H"), "s/m"},
-                   {symbol("C_A"), "s/m"}, {with_its_size(a, say("{f0}")), "N/m"},
+                   {symbol("C_A"), "s/m"}, {with_its_size(a.fitted, say("{f0}")), "N/m"},
                    {say("rms of {e}")},    {"held out"}};
   table.compact = true;
   const std::size_t d = comparison.dataset;

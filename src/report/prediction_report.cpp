@@ -9,6 +9,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
+#include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/result_json.hpp"
@@ -149,7 +150,12 @@ std::vector<Sentence> mixture_words(const Analysis& analysis,
             "alone {}",
             best->second, digits(best->first, 2), digits(*mixture.miss_single.rmse, 2)));
   }
-  if (!averages_over_sizes(analysis.fitted.model, mixture.dataset)) {
+  const ImpactModel& model = analysis.fitted.model;
+  const bool averages = averages_over_sizes(model, mixture.dataset) ||
+                        std::ranges::any_of(model.chain, [](const Mechanism* mechanism) {
+                          return mechanism->info.mixes_sizes;
+                        });
+  if (!averages) {
     words.emplace_back("the fit uses one diameter per point; the mixture is not fitted");
   }
   return words;

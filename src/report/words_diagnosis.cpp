@@ -103,6 +103,26 @@ std::string cause_of(const NotSeparable& d, const std::string& lead) {
                      cause_words(d.rivals, " or "));
 }
 
+/// The headline if nothing is named although a cause leaves no structure.
+std::string doubtful_headline(const CandidateResult& doubtful, const std::string& lead) {
+  const std::string name = words_of(doubtful.candidate.name());
+  if (doubtful.set_aside != SetAside::chance) {
+    return fmt::format("No cause is accepted: {} leaves no structure, but is set aside", name);
+  }
+  return fmt::format("{} may be {}, but chance gains as much in {:.0f} % of data sets", lead, name,
+                     100.0 * doubtful.p_value.value_or(1.0));
+}
+
+/// The alternative to errors of the measurement: "the cause may be gas film".
+std::string other_than_errors(const Diagnosis& d) {
+  if (const auto* errors = d.answer_if<ErrorsTooSmall>()) {
+    return "the cause may be " + words_of(errors->cause);
+  }
+  const CandidateResult* const doubtful = doubtful_cause(d);
+  return doubtful == nullptr ? "the cause is not in the catalogue"
+                             : "the cause may be " + words_of(doubtful->candidate.name());
+}
+
 /// Does the verdict leave a misfit to explain?
 bool is_rejected(const Diagnosis& d) {
   if (!d.fitted) return true;
@@ -129,10 +149,15 @@ std::string cause_headline(const Diagnosis& d) {
       }
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
-      if (rival_errors(d).empty()) return "No cause in the catalogue explains the residuals";
-      return d.base.data.noise.sd_stated
-                 ? "Either the errors are larger than stated, or the cause is not in the catalogue"
-                 : "Either points share errors, or the cause is not in the catalogue";
+      if (rival_errors(d).empty()) {
+        const CandidateResult* const doubtful = doubtful_cause(d);
+        return doubtful == nullptr ? "No cause in the catalogue explains the residuals"
+                                   : doubtful_headline(*doubtful, lead);
+      }
+      return fmt::format(
+          "Either {}, or {}",
+          d.base.data.noise.sd_stated ? "the errors are larger than stated" : "points share errors",
+          other_than_errors(d));
   }
   return "";
 }

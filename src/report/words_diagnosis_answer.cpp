@@ -281,12 +281,28 @@ std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
                            shape, because_words(*first));
 }
 
+/// The cause that leaves no structure, and why it is not named; empty without one.
+std::string doubtful_words(const Diagnosis& d) {
+  const CandidateResult* const doubtful = doubtful_cause(d);
+  if (doubtful == nullptr) return "";
+  return fmt::format(
+      "The closest cause is {}, which leaves no structure in the residuals ({}), but is set aside: "
+      "{}.",
+      mechanism_title(doubtful->candidate.name()), p_words(doubtful->remaining_p, quick_samples),
+      doubtful->set_aside ? because_words(*doubtful) : "a cause that is not possible fits better");
+}
+
 /// Why no cause is named.
 std::string unexplained_words(const Diagnosis& d) {
   if (const auto* shown = d.answer_if<Resembles>()) return resembling_words(d, *shown);
+  const std::string doubtful = doubtful_words(d);
   if (series_differ(d)) {
-    return "No cause in the catalogue explains the difference: fit each series separately, or "
-           "state the condition in which they differ.";
+    return doubtful.empty()
+               ? "No cause in the catalogue explains the difference: fit each series separately, "
+                 "or state the condition in which they differ."
+               : doubtful +
+                     " Fit each series separately, or state the condition in which they "
+                     "differ.";
   }
   if (const auto* errors = d.answer_if<ErrorsTooSmall>()) {
     return fmt::format(
@@ -296,6 +312,7 @@ std::string unexplained_words(const Diagnosis& d) {
   }
   if (!rival_errors(d).empty()) return rival_errors_words(d);
   if (dominant_point(d)) return dominant_point_words(d);
+  if (!doubtful.empty()) return doubtful;
   if (const CandidateResult* const closest = closest_cause(d)) {
     return fmt::format(
         "No cause in the catalogue explains it. The closest is {}, which explains {:.0f} % of the "
@@ -321,6 +338,9 @@ std::string advice_words(const Diagnosis& d) {
   if (!rival_errors(d).empty() || !d.structure.smooth) {
     return "State the errors of the measurement (restitution_sd, velocity_sd, setting) and repeat "
            "the diagnosis.";
+  }
+  if (const CandidateResult* const doubtful = doubtful_cause(d)) {
+    return doubtful->set_aside == SetAside::chance ? "More points would decide." : "";
   }
   if (d.free_form_p <= 0.01) {
     return "Check the rows themselves: a smooth function of velocity and size does not describe "

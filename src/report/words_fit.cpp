@@ -319,6 +319,14 @@ Sentence loss_words(const Analysis& a) {
   return Sentence(text + ".");
 }
 
+Sentence with_its_size(const FitResult& fitted, const Sentence& f0) {
+  const double size = fitted.model.contacts.front().reference_diameter;
+  const bool measured = std::ranges::any_of(fitted.data.points, [&](const Observation& point) {
+    return std::abs(point.diameter / size - 1.0) < 1e-3;
+  });
+  return measured ? f0 : say("{} at {}", f0, diameter_sentence(size));
+}
+
 std::string noise_name(const FitResult& fitted) {
   const auto counts = [](const Observation& point) { return point.censored; };
   return std::ranges::all_of(fitted.data.points, counts) ? "the noise of the counts"

@@ -20,6 +20,9 @@ std::string unknown_noise_reason(const FitResult& fitted);
 /// no laws were compared.
 Sentence loss_words(const Analysis& analysis);
 
+/// The name of f0, with the diameter to which it belongs if no point has it: "f0 at 49 um".
+Sentence with_its_size(const FitResult& fitted, const Sentence& f0);
+
 /// What the residuals are compared with: "the stated noise"; that of the counts if no e is known.
 std::string noise_name(const FitResult& fitted);
 

@@ -24,7 +24,10 @@ Sentence moved_constant_words(const FitResult& fitted, std::size_t constant) {
   for (std::size_t d = 0; d < model.contacts.size(); ++d) {
     if (!follows_materials(model, d)) continue;
     const ParameterSlot& slot = model.slots[model.slot_adhesion[d]];
-    return say("{} is {:.3g} {}, and the stated materials give {:.3g} {}", symbol(slot.label()),
+    const bool is_f0 = slot.parameter->role == ParameterRole::adhesion_force;
+    const Sentence name = symbol(slot.label());
+    return say("{} is {:.3g} {}, and the stated materials give {:.3g} {}",
+               is_f0 ? with_its_size(fitted, name) : name,
                adhesion_value_under(model, fitted.theta, d), unit(slot.parameter->unit),
                derived_adhesion(model, d), unit(slot.parameter->unit));
   }

@@ -117,6 +117,20 @@ TEST(Simulate, BudgetAddsUpToTheWhole) {
               100.0, 3e-5);
 }
 
+TEST(Simulate, SaysWhichSphereABudgetIsOfWhereTheyDiffer) {
+  const Workplace place;
+  std::string fit = place.read("fit.toml");
+  const auto run = [&] {
+    return place.run({"simulate", "fit.toml", "--velocity", "8", "--diameter", "4.9"}).out;
+  };
+  EXPECT_EQ(run().find("the mean of the rebounds"), std::string::npos);
+  place.write("fit.toml",
+              fit.insert(fit.find("[parameters]"), "mechanisms = [\"polydispersity\"]\n"));
+  EXPECT_NE(run().find("the mean of the rebounds over spheres that differ (polydispersity)"),
+            std::string::npos)
+      << run();
+}
+
 TEST(Simulate, SaysWhereTheModelHolds) {
   const Workplace place;
   const auto at = [&](const std::string& velocity) {

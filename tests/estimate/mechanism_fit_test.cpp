@@ -13,6 +13,7 @@
 #include "estimate/predictor.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/mechanism.hpp"
+#include "mechanism/survivors_mean.hpp"
 #include "support/independent_impact.hpp"
 #include "support/synthetic.hpp"
 #include "validation/truth/elastoplastic_truth.hpp"
@@ -173,6 +174,33 @@ TEST(WholeImpact, EnergyIsWhatPredictionsLeave) {
     EXPECT_GT(energy.out[film], 0.0);
     EXPECT_EQ(energy.in[hysteresis], 0.0);
     EXPECT_GT(energy.out[hysteresis], 0.0);
+  }
+}
+
+// Where the spheres of a point differ, contact and budget are those of the stated diameter, the
+// mean. The sphere in the middle of a lognormal of s = 0.3 is 4 % smaller; that in the middle of
+// these bins, at the geometric mean of 2.5 and 9.5 um, is 11 % smaller.
+TEST(WholeImpact, IsThatOfTheMeanSphereWhereSpheresDiffer) {
+  const std::vector<Dataset> datasets = {synthetic::dataset({})};
+  const ImpactModel base = make_model(parsed("", ""), datasets);
+  const ImpactModel spread = make_model(parsed("\"polydispersity\", \"survivor_bias\"",
+                                               "size_spread = { initial = 0.3 }\n"
+                                               "adhesion_spread = { initial = 0.3 }\n"),
+                                        datasets);
+  ImpactModel stated = spread;
+  MeasuredSizes sizes;
+  sizes.bins = {{3.5e-6, 0.15, 2e-6}, {5.25e-6, 0.7, 1.5e-6}, {8.5e-6, 0.15, 2e-6}};
+  stated.surroundings[0].sizes = mixed_sizes_of(sizes);
+  const PointConditions point = {0, 4.9e-6, 4.0};
+  const double alone = predict(base, base.initial(), 0, 4.9e-6, 4.0, false).restitution_squared;
+  for (const ImpactModel& model : {spread, stated}) {
+    const std::vector<double> theta = model.initial();
+    const ContactView view = contact_view(model, theta, point);
+    EXPECT_DOUBLE_EQ(view.encounter.diameter, 4.9e-6);
+    const ImpactResult impact = simulate_impact(view.groups, model.impact_options(false));
+    const WholeImpactEnergy energy = whole_impact_energy(model, theta, point, impact);
+    EXPECT_NEAR(energy.incident, 0.5 * mass(4.9e-6) * 16.0, 1e-9 * energy.incident);
+    EXPECT_NEAR(energy.rebound / energy.incident, alone, 1e-6);
   }
 }
 

@@ -16,6 +16,7 @@ namespace {
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 template <class Kind>
 std::vector<Kind> layers_of(const plot::Plot& shown) {
@@ -68,6 +69,20 @@ TEST(RestitutionFigures, ShowEveryPointOnce) {
     shown += here;
   }
   EXPECT_EQ(shown, analysis.fitted.data.points.size());
+}
+
+// The mean of the rebounds falls towards capture. It rises again because slow ones are missing.
+TEST(RestitutionFigures, SayWhyAMeanOverSizesRisesAgain) {
+  Analysis analysis = sample::four_diameters();
+  const auto caption = [&] { return plain_text(restitution_figures(analysis).front().caption); };
+  EXPECT_THAT(caption(), Not(HasSubstr("mean of the rebounds")));
+  MixedSizes& sizes = analysis.fitted.model.surroundings[0].sizes;
+  sizes.spread = 0.2;
+  EXPECT_THAT(caption(), HasSubstr("it rises again where slow ones are not."));
+  EXPECT_THAT(caption(), Not(HasSubstr("Rebounds below")));
+  sizes.slowest_seen = std::sqrt(2.0 * 9.80665 * 1e-3);  // a plane 1 mm above the surface
+  EXPECT_THAT(caption(),
+              HasSubstr("Rebounds below 0.14 m/s are not seen, so e is at least 0.14 m/s over V."));
 }
 
 TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {

@@ -242,6 +242,16 @@ TEST(FitTables, GiveEstimateErrorAndIntervalOfAParameter) {
               HasSubstr(", at its bound"));
 }
 
+// 49 um, where the points are of 2.58 to 6.89 um.
+TEST(FitTables, GiveF0WithItsSizeIfNoPointHasIt) {
+  Analysis analysis = sample::four_diameters();
+  const TwoPointComparison& two = analysis.uncertainty.two_point.front();
+  EXPECT_EQ(plain_text(two_point_table(analysis, two).columns[3].heading), "f0");
+  analysis.fitted.model.contacts[0].reference_diameter = 49e-6;
+  EXPECT_EQ(words(row_of(parameters_table(analysis), "f0 at 49 um [N/m]")[2]), "fixed");
+  EXPECT_EQ(plain_text(two_point_table(analysis, two).columns[3].heading), "f0 at 49 um");
+}
+
 TEST(FitTables, GiveTheCaptureVelocityOfEverySize) {
   Analysis analysis = sample::four_diameters();
   const Table table = capture_table(analysis);

@@ -88,6 +88,52 @@ TEST(AnswerSentences, SpeakOfStatedErrorsOnlyWhereSomeAreStated) {
   EXPECT_THAT(text(), testing::Not(HasSubstr("their stated")));
 }
 
+/// A charge that leaves no structure (p = 0.97); chance gains as much in 7 % of data sets.
+CandidateResult image_charge() {
+  CandidateResult charge;
+  charge.candidate.added = {"electrostatic_image"};
+  charge.delta_aicc = -6.0;
+  charge.p_value = 0.07;
+  charge.remaining_p = 0.97;
+  charge.remaining_part = 0.02;
+  charge.set_aside = SetAside::chance;
+  return charge;
+}
+
+TEST(AnswerSentences, NeverSayNoCauseBesideOneThatLeavesNoStructure) {
+  Diagnosis d = answered(Unexplained{});
+  d.base.residuals = {1.0, -1.0, 1.0};  // no single point dominates
+  d.base.chi2 = 3.0;
+  d.structure.smooth = true;
+  const auto text = [&] {
+    std::string all = cause_headline(d) + ". ";
+    for (const std::string& sentence : answer_sentences(d)) all += sentence + " ";
+    return all;
+  };
+  EXPECT_THAT(text(), HasSubstr("No cause in the catalogue explains it, alone or in pairs."));
+  d.candidates = {image_charge()};
+  EXPECT_THAT(text(), testing::Not(HasSubstr("No cause")));
+  EXPECT_THAT(text(), HasSubstr("may be electrostatic image, but chance gains as much in 7 % of"));
+  EXPECT_THAT(text(), HasSubstr("leaves no structure in the residuals (p = 0.97), but is set "
+                                "aside: by chance alone"));
+  d.candidates.front().set_aside = SetAside::predicts_no_better;
+  EXPECT_THAT(text(), testing::Not(HasSubstr("No cause in the catalogue")));
+  EXPECT_THAT(text(), HasSubstr("No cause is accepted: electrostatic image"));
+  // One that leaves structure is no explanation.
+  d.candidates.front().remaining_p = 0.001;
+  EXPECT_THAT(text(), HasSubstr("No cause in the catalogue explains it."));
+}
+
+TEST(CauseHeadline, NamesTheCauseThatUnstatedErrorsRival) {
+  Diagnosis d = answered(ErrorsTooSmall{"gas_film"});
+  d.unstated.push_back({UnstatedSource::larger_deviations, 1.4, -20.0, 0.4});
+  EXPECT_THAT(cause_headline(d), HasSubstr(", or the cause may be gas film"));
+  d.answer = Unexplained{};
+  EXPECT_THAT(cause_headline(d), HasSubstr(", or the cause is not in the catalogue"));
+  d.candidates = {image_charge()};
+  EXPECT_THAT(cause_headline(d), HasSubstr(", or the cause may be electrostatic image"));
+}
+
 TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
   Diagnosis d = answered(names({"gas_film"}));
   CandidateResult& cause = std::get<CauseNamed>(d.answer).extended.cause;
