@@ -37,7 +37,7 @@ std::optional<OddPoint> odd_point(const FitResult& fitted) {
   }
   const double left = fitted.dof - 1.0;
   const double scale = stated ? 1.0 : std::sqrt(std::max(0.0, square - most) / left);
-  if (!(most > 0.0)) return {};
+  if (!(most > 0.0 && scale > 0.0)) return {};
   odd.residual = std::copysign(std::sqrt(most) / scale, fitted.residuals[odd.index]);
   const double tail = stated ? gsl_cdf_ugaussian_Q(std::abs(odd.residual))
                              : gsl_cdf_tdist_Q(std::abs(odd.residual), left);

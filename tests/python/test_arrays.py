@@ -126,8 +126,12 @@ def test_plots():
     value, rise = profile.get_xdata(), profile.get_ydata()
     assert abs(value[np.argmin(rise)] / result.parameters.C_A.value - 1) < 0.2
     # chi-square with C_A held, the rest refitted, over its least value
+    exact = {**BODIES, "uncertainty": {"materials": True}}
+    result = recoil.fit(FRAME, d=4, replicates=0, **exact)
+    profile = result.plot(what="profile", parameter="C_A").lines[0]
+    value, rise = profile.get_xdata(), profile.get_ydata()
     last = len(value) - 1
-    held = recoil.fit(FRAME, d=4, replicates=0, **BODIES,
+    held = recoil.fit(FRAME, d=4, replicates=0, **exact,
                       parameters={"C_A": {"free": False, "initial": float(value[last])}})
     assert held.chisqr - result.chisqr == pytest.approx(rise[last], rel=1e-3)
     with pytest.raises(recoil.InputError, match="choose one of C_H, C_A"):
