@@ -15,7 +15,7 @@ struct Range {
   std::string_view hint_below = "";      ///< suggestion for a value below `lower`, if different
 
   constexpr bool contains(double value) const { return value >= lower && value <= upper; }
-  /// "it has to lie between 1e-09 and 1 m"
+  /// "it has to lie between 1e-09 and 1 m"; angles in degrees
   std::string sentence() const;
   /// The suggestion for `value`, which is outside.
   std::string hint_for(double value) const;

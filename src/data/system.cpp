@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/units.hpp"
 #include "data/json_document.hpp"
 #include "data/text.hpp"
 
@@ -168,6 +169,10 @@ Enum known_word(const JsonNode& node, const std::string& what, const std::string
 }  // namespace
 
 std::string Range::sentence() const {
+  if (unit == "rad") {
+    return fmt::format("it has to lie between {:g} and {:g} deg", in_degrees(lower),
+                       in_degrees(upper));
+  }
   return fmt::format("it has to lie between {:g} and {:g}{}", lower, upper, unit_suffix(unit));
 }
 

@@ -99,7 +99,8 @@ TEST(IncidenceAngle, WhatHasNoMeaningIsOneClearLine) {
   expect_of_points("2,60", "2,90", "points.csv:2:7: ", "incidence_angle = 90 deg",
                    "from the normal, below 90 deg");
   expect_of_points("2,60", "2,-60", "points.csv:2:7: ", "it cannot be negative", "magnitude");
-  expect_of_points("2,60", "2,120", "points.csv:2:7: ", "incidence_angle = 120 deg",
+  expect_of_points("2,60", "2,120",
+                   "points.csv:2:7: ", "120 deg it has to lie between 0 and 90 deg",
                    "from the normal, below 90 deg");
   expect_of_points("2,60", "2,", "points.csv:2:7: ", "'incidence_angle' is empty", "write 0");
   expect_of_points("2,60", "2,89.999999", "points.csv:2:7: ", "a normal velocity of 3.49",
