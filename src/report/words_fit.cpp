@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "data/text.hpp"
 #include "estimate/input_errors.hpp"
@@ -247,7 +248,11 @@ Sentences mechanism_warnings(const ImpactModel& model) {
 
 Sentences start_warnings(const FitResult& fitted) {
   Sentences warnings;
-  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+  std::set<std::size_t> differing_slots;
+  for (const StartSummary& start : fitted.starts) {
+    differing_slots.insert(start.differing.begin(), start.differing.end());
+  }
+  for (const std::size_t j : differing_slots) {
     std::vector<double> ends;
     for (const StartSummary& start : fitted.starts) {
       const auto& differing = start.differing;
@@ -256,7 +261,6 @@ Sentences start_warnings(const FitResult& fitted) {
         ends.push_back(start.end[j]);
       }
     }
-    if (ends.size() < 2) continue;
     const auto [least, most] = std::ranges::minmax_element(ends);
     warnings.push_back(
         say("starts reach the same chi2 at other parameters: {} from {:.4g} to {:.4g}",
