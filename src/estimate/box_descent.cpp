@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "estimate/gauss_newton.hpp"
+
 namespace recoil {
 namespace {
 
@@ -233,6 +235,17 @@ class BoxDescent {
       low_(k) = way_to(problem_.lower[j], k);
       high_(k) = way_to(problem_.upper[j], k);
     }
+    reduce_rows();
+  }
+
+  /// Sets `triangle_`: the triangular factor of [J r], once for all radii.
+  void reduce_rows() {
+    const auto rows = [this](Eigen::Index first, Eigen::Index count) {
+      Eigen::MatrixXd some(count, jacobian_.cols() + 1);
+      some << jacobian_.middleRows(first, count), residuals_.segment(first, count);
+      return some;
+    };
+    triangle_ = triangular_factor(jacobian_.rows(), jacobian_.cols() + 1, rows);
   }
 
   /// Largest component of the gradient, projected onto the bounds.
@@ -244,11 +257,11 @@ class BoxDescent {
   Eigen::VectorXd step(double radius) const {
     const Eigen::Index q = jacobian_.cols();
     const Eigen::VectorXd lengths = jacobian_.colwise().norm().cwiseMax(shortest_column);
-    Eigen::MatrixXd rows(jacobian_.rows() + q, q);
-    rows.topRows(jacobian_.rows()) = jacobian_;
+    Eigen::MatrixXd rows(triangle_.rows() + q, q);
+    rows.topRows(triangle_.rows()) = triangle_.leftCols(q);
     rows.bottomRows(q) = Eigen::MatrixXd(lengths.asDiagonal()) / std::sqrt(radius);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.rows());
-    right.head(residuals_.size()) = residuals_;
+    right.head(triangle_.rows()) = triangle_.col(q);
     const Eigen::HouseholderQR<Eigen::MatrixXd> factors(rows);
     right.applyOnTheLeft(factors.householderQ().adjoint());
     const Eigen::MatrixXd R = factors.matrixQR().topRows(q).triangularView<Eigen::Upper>();
@@ -275,7 +288,7 @@ class BoxDescent {
   std::vector<std::size_t> free_;
   LeastSquaresResult result_;
   Eigen::VectorXd residuals_, units_, where_, low_, high_;
-  Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd jacobian_, triangle_;
 };
 
 }  // namespace

@@ -11,6 +11,10 @@ namespace recoil {
 namespace {
 
 constexpr int most_steps = 30;
+
+/// The number of rows that `triangular_factor` takes at once for `q` columns.
+Eigen::Index rows_at_a_time(Eigen::Index q) { return std::max<Eigen::Index>(2048, 16 * q); }
+
 constexpr double all_digits = 1e-13;  // relative step below which theta does not change
 // Relative; residuals may be small differences of large numbers.
 constexpr double rounding_of_sum = 1e-9;
@@ -141,6 +145,22 @@ class StepHistory {
 
 }  // namespace
 
+Eigen::MatrixXd triangular_factor(
+    Eigen::Index n, Eigen::Index q,
+    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index count)>& rows) {
+  const Eigen::Index at_a_time = rows_at_a_time(q);
+  Eigen::MatrixXd triangle(0, q);
+  for (Eigen::Index first = 0; first < n; first += at_a_time) {
+    const Eigen::Index count = std::min(at_a_time, n - first);
+    Eigen::MatrixXd stacked(triangle.rows() + count, q);
+    stacked << triangle, rows(first, count);
+    const Eigen::Index left = std::min(stacked.rows(), q);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(stacked);
+    triangle = factors.matrixQR().topRows(left).triangularView<Eigen::Upper>();
+  }
+  return triangle;
+}
+
 Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
                                 const std::vector<std::size_t>& moving) {
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -158,20 +178,8 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
     rows.col(q) = residuals.segment(first, count);
     return rows;
   };
-  const Eigen::Index at_a_time = std::max<Eigen::Index>(2048, 16 * (q + 1));
-  if (n <= 2 * at_a_time) return some(0, n);
-  // Sequential QR: the triangular factor of the first rows, then of this factor and the next rows,
-  // and so on.
-  Eigen::MatrixXd triangle(0, q + 1);
-  for (Eigen::Index first = 0; first < n; first += at_a_time) {
-    const Eigen::Index count = std::min(at_a_time, n - first);
-    Eigen::MatrixXd rows(triangle.rows() + count, q + 1);
-    rows << triangle, some(first, count);
-    const Eigen::Index left = std::min(rows.rows(), q + 1);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(rows);
-    triangle = factors.matrixQR().topRows(left).triangularView<Eigen::Upper>();
-  }
-  return triangle;
+  if (n <= 2 * rows_at_a_time(q + 1)) return some(0, n);
+  return triangular_factor(n, q + 1, some);
 }
 
 std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& problem,

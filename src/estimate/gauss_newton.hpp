@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,9 +11,16 @@
 
 namespace recoil {
 
+/// The triangular factor R of A [n x q], with |A x| = |R x| for every x, by sequential QR
+/// factorisation: the factor of the first rows, then of this factor and the next rows, and so on.
+/// @param rows gives `count` rows of A from the row `first` on
+Eigen::MatrixXd triangular_factor(
+    Eigen::Index n, Eigen::Index q,
+    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index count)>& rows);
+
 /// The columns `moving` of the result's Jacobian J, and its residuals r as the last column [m x
-/// (moving + 1)]. Many rows are reduced to few (m < n) by sequential QR factorisation, which
-/// preserves every |r + J d|.
+/// (moving + 1)]. Many rows are reduced to few (m < n) by `triangular_factor`, which preserves
+/// every |r + J d|.
 Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
                                 const std::vector<std::size_t>& moving);
 

@@ -20,6 +20,7 @@ constexpr std::array sizes_of_error = {0.015, 0.03, 0.06, 0.12, 0.24};
 constexpr double exact_prior = 0.1;
 constexpr double short_length = 0.8, long_length = 1.6;
 constexpr std::size_t most_sizes = 12;  // sizes that may have an error each
+constexpr int screening_steps = 40;     // of a screening; then its criterion is an upper limit
 constexpr double negligible = 0.01;     // weight below which an assumption is left out
 
 std::size_t count_sizes(const Observations& data) {
@@ -47,6 +48,7 @@ std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
   options.minimiser.strategies = {Strategy::gauss_newton, Strategy::box_descent};
   options.minimiser.finish = false;
   options.minimiser.close_enough = 0.01;
+  options.minimiser.max_iterations = screening_steps;
   options.parameters = 0.02;
   options.scale = 0.01;
   std::vector<double> theta = exact.theta;
@@ -58,7 +60,7 @@ std::vector<Screened> screen_kernel(const FitResult& exact, LawErrorPrior prior,
     for (std::size_t j = exact.theta.size(); j < theta.size(); ++j) theta[j] *= before / prior.size;
     theta.resize(model.slots.size(), 0.0);
     ReweightedFit fit = reweighted_fit(model, data, noise, theta, options);
-    if (!fit.run.ended()) continue;
+    if (!fit.run.ended() && fit.run.end != DescentEnd::limit) continue;
     theta = fit.run.theta;
     noise = fit.weights.noise;
     found.push_back({prior, of.prior / kernels,
@@ -72,6 +74,7 @@ FitResult fit_with(const FitResult& exact, const Screened& at, Observations data
   FitOptions options = given;
   options.several_starts = false;
   options.start = at.theta;
+  options.minimiser.strategies = {Strategy::gauss_newton, Strategy::box_descent};
   options.noise = exact.weights.noise;
   options.noise->candidates.clear();
   return fit(with_law_error(exact.model, at.prior, exact.data.conditions()), std::move(data),
@@ -190,7 +193,9 @@ std::optional<LawErrorEstimate> law_error_of(const FitResult& fitted, double lev
   LawErrorEstimate estimate;
   estimate.exact_weight = exact;
   estimate.lower = quantile_of(weights, 0.5 - level / 2.0);
-  estimate.upper = quantile_of(weights, estimate.seen() ? 0.5 + level / 2.0 : level);
+  // Exact laws stand for all errors below the smallest size.
+  estimate.upper = std::max(quantile_of(weights, estimate.seen() ? 0.5 + level / 2.0 : level),
+                            sizes_of_error.front() / std::numbers::sqrt2);
   estimate.median = quantile_of(weights, exact + 0.5 * (1.0 - exact));
   return estimate;
 }

@@ -1,5 +1,7 @@
 #include "estimate/linearised.hpp"
 
+#include <cmath>
+
 namespace recoil {
 namespace {
 
@@ -16,8 +18,15 @@ LinearisedResiduals::LinearisedResiduals(const Eigen::MatrixXd& jacobian)
   }
   factors_.compute(jacobian * scale_.cwiseInverse().asDiagonal());
   const Eigen::Index q = jacobian.cols();
-  const Eigen::MatrixXd r = factors_.matrixQR().topRows(q).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd singular_values = Eigen::JacobiSVD<Eigen::MatrixXd>(r).singularValues();
+  const auto r = factors_.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+  inverse_ = r.solve(Eigen::MatrixXd::Identity(q, q));
+  // The columns have length 1, so the singular values lie between 1 / |R^-1|_F and sqrt(q).
+  if (1.0 / inverse_.norm() > singular_ratio * std::sqrt(static_cast<double>(q))) {
+    singular_ = false;
+    return;
+  }
+  const Eigen::VectorXd singular_values =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::MatrixXd(r)).singularValues();
   singular_ = !(singular_values.minCoeff() > singular_ratio * singular_values.maxCoeff());
 }
 
@@ -26,11 +35,7 @@ Eigen::VectorXd LinearisedResiduals::step(const Eigen::VectorXd& residuals) cons
 }
 
 Eigen::MatrixXd LinearisedResiduals::covariance() const {
-  const Eigen::Index q = scale_.size();
-  const Eigen::MatrixXd inverse =
-      scale_.cwiseInverse().asDiagonal() *
-      factors_.matrixQR().topRows(q).triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd::Identity(q, q));
+  const Eigen::MatrixXd inverse = scale_.cwiseInverse().asDiagonal() * inverse_;
   return inverse * inverse.transpose();
 }
 

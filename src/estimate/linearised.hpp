@@ -26,6 +26,7 @@ class LinearisedResiduals {
  private:
   Eigen::VectorXd scale_;  // lengths of the columns
   Eigen::HouseholderQR<Eigen::MatrixXd> factors_;
+  Eigen::MatrixXd inverse_;  // of R
   bool singular_ = true;
 };
 

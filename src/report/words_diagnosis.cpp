@@ -123,18 +123,27 @@ std::string other_than_errors(const Diagnosis& d) {
                              : "the cause may be " + words_of(doubtful->candidate.name());
 }
 
-/// Does the verdict leave a misfit to explain?
-bool is_rejected(const Diagnosis& d) {
-  if (!d.fitted) return true;
-  const ModelVerdict verdict = judge_model(*d.fitted).verdict;
-  return verdict == ModelVerdict::does_not_fit || verdict == ModelVerdict::fits_within_law_error;
+/// What the cause explains, by the verdict.
+std::string lead_words(const Diagnosis& d) {
+  const ModelVerdict verdict =
+      d.fitted ? judge_model(*d.fitted).verdict : ModelVerdict::does_not_fit;
+  switch (verdict) {
+    case ModelVerdict::does_not_fit:
+      return "Cause of the misfit";
+    case ModelVerdict::fits_within_law_error:
+      return "Cause of the error of the laws";
+    case ModelVerdict::fits:
+    case ModelVerdict::fits_with_moved_constants:
+    case ModelVerdict::untested:
+      break;
+  }
+  return "Cause of structure in the residuals";
 }
 
 }  // namespace
 
 std::string cause_headline(const Diagnosis& d) {
-  const std::string lead =
-      is_rejected(d) ? "Cause of the misfit" : "Cause of structure in the residuals";
+  const std::string lead = lead_words(d);
   switch (d.verdict()) {
     case Verdict::adequate:
       return "";

@@ -52,8 +52,8 @@ Sentence untested_words(const FitResult& f, const ModelJudgement& judged) {
   }
   if (judged.laws) {
     return say(
-        "The points do not contradict the model; as they state no standard deviations, only a "
-        "smooth misfit could.");
+        "The points state no standard deviations, so that they can only show an error of the laws "
+        "that is smooth.");
   }
   return say(
       "The rms residual of {e} is {}; without stated standard deviations the fit cannot be tested.",

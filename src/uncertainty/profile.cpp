@@ -34,7 +34,7 @@ class Profile {
   /// parameters and the spread of the impacts. `others` is the start of the refit and receives its
   /// end. Nullopt if it fails.
   std::optional<double> rise(double value, std::vector<double>& others) {
-    others[slot_] = value;
+    follow(value, others);
     double before = INFINITY;
     for (int round = 0; round < most_rounds; ++round) {
       const LeastSquaresResult refit = minimise(problem_, others, options_);
@@ -52,6 +52,20 @@ class Profile {
   }
 
  private:
+  /// Moves the slot to `value` and the other parameters with it, as they do to first order.
+  void follow(double value, std::vector<double>& others) const {
+    const std::size_t p = others.size();
+    const double by = value - others[slot_];
+    const double variance =
+        fitted_.covariance.empty() ? 0.0 : fitted_.covariance[slot_ * p + slot_];
+    for (std::size_t j = 0; j < p && variance > 0.0; ++j) {
+      const ParameterSlot& other = fitted_.model.slots[j];
+      const double at = others[j] + by * fitted_.covariance[slot_ * p + j] / variance;
+      if (at > other.lower && at < other.upper) others[j] = at;
+    }
+    others[slot_] = value;
+  }
+
   static constexpr int most_rounds = 12;
   // Tolerance of the rise: a thousandth of the interval's width.
   static constexpr double at_rest = 5e-3;
@@ -232,7 +246,10 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
   const Allowance allowed = allowance(fitted, slot, level, error);
   Profile profile(fitted, slot);
   const double value = fitted.theta[slot];
-  double stride = error > 0.0 ? error : 0.1 * std::abs(value);
+  // Where the rise is quadratic, the first step ends just outside.
+  const double reach =
+      fitted.noise_scale > 0.0 ? 1.05 * std::sqrt(allowed(value)) / fitted.noise_scale : 1.0;
+  double stride = error > 0.0 ? reach * error : 0.1 * std::abs(value);
   if (!(stride > 0.0)) {
     const double start = std::abs(fitted.model.slots[slot].initial);
     stride = start > 0.0 ? 0.1 * start : 1e-3 * fitted.model.slots[slot].upper;
