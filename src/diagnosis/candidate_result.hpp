@@ -57,6 +57,14 @@ constexpr auto names_of_values(SetAside) {
                    "second_adds_little", "at_limit", "far_behind");
 }
 
+/// How well points like these distinguish a cause from the rival that is hardest to tell from it
+/// (`separate`).
+struct Separation {
+  std::string rival;         ///< name of that rival
+  double lambda = 0.0;       ///< least chi2 of the rival on points of the cause without noise [1]
+  double probability = 0.0;  ///< that the criterion of the rival is worse by the margin [1]
+};
+
 /// One mechanism, or two at once, tested as an explanation.
 struct CandidateResult {
   Candidate candidate;
@@ -78,8 +86,16 @@ struct CandidateResult {
   bool only_by_error = false;
   bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
+  /// With exact laws, and with laws that err as is usual; nullopt for what cannot be a cause, and
+  /// without a rival.
+  std::optional<Separation> separation, separation_allowed;
 
   bool explains() const { return !set_aside; }
 };
+
+/// Is it neither a description nor a batch effect that is equivalent to a law of size?
+inline bool may_be_a_cause(const CandidateResult& c) {
+  return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
+}
 
 }  // namespace recoil

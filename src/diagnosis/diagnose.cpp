@@ -14,6 +14,7 @@
 #include "diagnosis/judge.hpp"
 #include "diagnosis/next_experiments.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis/separation.hpp"
 #include "diagnosis/trial.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -137,11 +138,6 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
 bool beyond_a_sharp_limit(const CandidateResult& c) {
   return std::ranges::any_of(
       c.parameters, [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
-}
-
-/// Is it neither a description nor a batch effect that is equivalent to a law of size?
-bool may_be_a_cause(const CandidateResult& c) {
-  return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
 }
 
 /// Is it a possible cause that fits better than the base model?
@@ -374,8 +370,7 @@ DiagnosisAnswer without_a_cause(const SearchBase& base, const Diagnosis& diagnos
   const auto impossible = std::ranges::find_if(candidates, only_resembles);
   const bool has_impossible = impossible != candidates.end();
   if (law_errors_suffice(base) && !(has_impossible && impossible->delta_aicc < -margin)) {
-    return Adequate{{},
-                    IfExact{diagnosis.structure.p_value, best_where(may_act, candidates, margin)}};
+    return Adequate{};
   }
   if (!has_impossible ||
       plausible_cause_fits_as_well(candidates, *impossible, base.options.chance)) {
@@ -398,6 +393,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   const double margin = one_size ? margin_at_one_size : options.margin;
   const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
   judge(base, diagnosis.candidates, margin, folds);
+  if (!options.answer_alone) separate(base, diagnosis.candidates);
   diagnosis.unstated = unstated_errors(base);
   const auto impossible = std::ranges::find_if(diagnosis.candidates, only_resembles);
   const bool has_impossible = impossible != diagnosis.candidates.end();
@@ -406,7 +402,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
                                                                       margin, margin_in_pairs));
   };
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
-  if (nothing_explains(found) && gains_more_than_chance(diagnosis)) {
+  if (nothing_explains(found) && !options.single_causes && gains_more_than_chance(diagnosis)) {
     found = explanations_by_pairs(base, folds, margin_in_pairs, one_size, diagnosis);
   }
   // An error of the laws is the simpler answer unless a cause is clearly better.
@@ -439,21 +435,6 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
-/// The structure that exact laws leave and, if there is any, the causes that fit it best.
-std::optional<IfExact> if_exact(const SearchBase& allowed) {
-  if (!(allowed.first.law_error > 0.0)) return std::nullopt;
-  FitSpec spec = allowed.spec;
-  spec.law_error = 0.0;
-  const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, allowed.options);
-  if (!base.refit.usable) return std::nullopt;
-  IfExact found{quick_p_value(base, base.refit), {}};
-  if (found.p_value > base.options.level) return found;
-  std::vector<CandidateResult> candidates = try_singles(base);
-  judge(base, candidates, INFINITY, {});
-  found.listed = best_where(may_act, candidates, base.options.margin);
-  return found;
-}
-
 /// Steps 1 to 5 on all points of `base`.
 Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
   const DiagnosisOptions& options = base.options;
@@ -467,11 +448,37 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
-    diagnosis.answer =
-        options.answer_alone ? Adequate{} : Adequate{materials_explain(diagnosis), if_exact(base)};
+    diagnosis.answer = options.answer_alone ? Adequate{} : Adequate{materials_explain(diagnosis)};
   } else {
     diagnosis.answer = search(base, simulated, base_intervals, diagnosis);
   }
+  return diagnosis;
+}
+
+/// What exact laws leave and, if it has structure, steps 1 to 5 with them for single causes.
+std::optional<IfExact> if_exact(const SearchBase& allowed) {
+  if (!(allowed.first.law_error > 0.0)) return std::nullopt;
+  FitSpec spec = allowed.spec;
+  spec.law_error = 0.0;
+  DiagnosisOptions options = allowed.options;
+  options.answer_alone = options.single_causes = true;
+  options.kept.reset();  // their pieces are others
+  const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, options);
+  if (!base.refit.usable) return std::nullopt;
+  IfExact found;
+  found.p_value = quick_p_value(base, base.refit);
+  if (found.p_value > options.level) return found;
+  const Diagnosis exact = diagnose_all(base, {});
+  found.named = exact.named();
+  found.listed = best_where(may_act, exact.candidates, options.margin);
+  return found;
+}
+
+/// `diagnose_all` with the answer for exact laws, unless a cause is named without them.
+Diagnosis diagnose_both(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
+  Diagnosis diagnosis = diagnose_all(base, base_intervals);
+  const bool wanted = !base.options.answer_alone && !diagnosis.answer_if<CauseNamed>();
+  if (wanted) diagnosis.if_exact = if_exact(base);
   return diagnosis;
 }
 
@@ -541,13 +548,13 @@ Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
   const auto all = all_points(spec, datasets, start, options);
   const std::vector<OutlyingPoint> outlying = outlying_points(all->base);
   Diagnosis for_all =
-      diagnose_all(all->base, same_fit ? base_intervals : std::vector<IntervalSet>());
+      diagnose_both(all->base, same_fit ? base_intervals : std::vector<IntervalSet>());
   for_all.fitted = std::make_shared<const FitResult>(fitted);
   // Errors that all points have may also make points outlie, and are the simpler answer.
   const bool errors_do = std::ranges::any_of(for_all.unstated, &UnstatedErrors::leave_nothing);
   const auto others = errors_do ? nullptr : other_points(*all, outlying);
   if (!others) return for_all;
-  Diagnosis diagnosis = diagnose_all(others->base, {});
+  Diagnosis diagnosis = diagnose_both(others->base, {});
   diagnosis.fitted = for_all.fitted;
   diagnosis.outlying = outlying;
   diagnosis.for_all =

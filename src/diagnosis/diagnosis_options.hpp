@@ -29,8 +29,9 @@ struct DiagnosisOptions {
   /// pair.
   double margin_in_pairs = 6.0;
   std::uint64_t seed = 20260101;
-  bool answer_alone = false;  ///< compute only the verdict with the named or listed causes
-  int threads = 0;            ///< 0: all cores. Results do not depend on it.
+  bool answer_alone = false;   ///< compute only the verdict with the named or listed causes
+  bool single_causes = false;  ///< do not search for pairs of causes
+  int threads = 0;             ///< 0: all cores. Results do not depend on it.
   /// Results of pieces of the work (`KeptPiece`) from an earlier run or other processes: those
   /// pieces are not run again, and new results are added. Null: nothing is kept.
   std::shared_ptr<KeptRows> kept;

@@ -68,12 +68,12 @@ struct MaterialsExplain {
   double p_value_exact = 1.0;  ///< p-value of the structure that exact materials leave
 };
 
-/// The structure that an adequate model leaves if laws and losses have no error (`LawErrors`).
+/// The answer if laws and losses have no error (`LawErrors`), for single causes.
 struct IfExact {
-  double p_value = 1.0;  ///< p-value of the structure
-  /// If the p-value is at most the level of the diagnosis: the possible causes that fit best, all
-  /// within the margin of the first.
-  std::vector<std::string> listed;
+  double p_value = 1.0;  ///< p-value of the structure that the base model leaves
+  /// If the p-value is at most the level of the diagnosis: the cause that is named, if one is, and
+  /// the possible causes that fit best, all within the margin of the first.
+  std::vector<std::string> named, listed;
 };
 
 /// How often simulated data sets like these, in which a cause acts, get each answer
@@ -108,7 +108,6 @@ struct ExtendedModel {
 /// The answers of a diagnosis. Adequate: the base model leaves no structure.
 struct Adequate {
   std::optional<MaterialsExplain> materials;  ///< if the errors of the constants matter
-  std::optional<IfExact> if_exact;
 };
 
 /// One explanation, a cause or a pair of causes, is distinguished from all others.
@@ -153,6 +152,8 @@ struct Diagnosis {
   /// alone.
   std::shared_ptr<const FitResult> fitted;
   DiagnosisAnswer answer;
+  /// The answer with exact laws; nullopt if a cause is named without them, or for the answer alone.
+  std::optional<IfExact> if_exact;
   Structure structure;  ///< structure of the base model's residuals
   /// Points that were set aside; the other members are without them.
   std::vector<OutlyingPoint> outlying;

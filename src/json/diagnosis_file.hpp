@@ -72,6 +72,11 @@ struct DiagnosisFile {
       (OrNull<Condition>, stated_by, "the condition that states the value"),
       (bool, plausible, "whether this value is possible")) };
 
+  struct Separable { RECOIL_RESULT(
+      (std::string, rival, "the possible cause that is hardest to tell from it"),
+      (double, lambda, "least chi-square of this rival on points of the cause without noise", "1"),
+      (double, probability, "probability that such points would name the cause", "1")) };
+
   struct Candidate { RECOIL_RESULT(
       (std::string, id, "the mechanism, or two joined by +"),
       (MechanismKind, kind, "kind of the mechanism"),
@@ -87,7 +92,11 @@ struct DiagnosisFile {
       (bool, plausible, "whether its values are possible"),
       (double, cost_of_possible, "increase of `delta_aicc` if the values are kept within their "
        "limits; computed if one is beyond its limit by less than its error, else 0", "1"),
-      (OrNull<std::string>, aside, "why it is no explanation; null if it is one")) };
+      (OrNull<std::string>, aside, "why it is no explanation; null if it is one"),
+      (OrNull<Separable>, separation, "for the first possible causes: how well points like these "
+       "tell it from its nearest rival, if it is the cause and laws are exact"),
+      (OrNull<Separable>, separation_allowed, "the same if the law of a mechanism errs by 10 % and "
+       "the base model by 3 %")) };
 
   struct FoldEntry { RECOIL_RESULT(
       (FoldKind, kind, "what is held out"),
@@ -172,6 +181,7 @@ struct DiagnosisFile {
 
   struct Exact { RECOIL_RESULT(
       (double, p_value, "p-value of the structure that the model would leave", "1"),
+      (Strings, named, "the cause that would be named, if one would"),
       (Strings, listed, "causes that would fit best, if `p_value` is at most `settings.level`")) };
 
   struct DetectionEntry { RECOIL_RESULT(
@@ -210,7 +220,8 @@ struct DiagnosisFile {
      "none"),
     (OrNull<double>, law_error, "allowed relative error of the laws of mechanisms; null: averaged "
      "over", "1"),
-    (OrNull<Exact>, if_exact, "for an adequate model: the structure that exact laws would leave"),
+    (OrNull<Exact>, if_exact, "the answer for exact laws and single causes; null if a cause is named "
+     "without them"),
     (Strings, named, "ids of the named mechanisms; two if both act at once"),
     (Strings, rivals, "ids that the data cannot distinguish from the named one; for an adequate "
      "model `materials_within_errors`, if exact materials would leave structure"),

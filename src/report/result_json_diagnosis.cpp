@@ -33,6 +33,11 @@ DiagnosisFile::Misfit misfit_of(const Diagnosis& d) {
   return out;
 }
 
+std::optional<DiagnosisFile::Separable> separable(const std::optional<Separation>& found) {
+  if (!found) return std::nullopt;
+  return DiagnosisFile::Separable{found->rival, found->lambda, found->probability};
+}
+
 /// @param most largest number of listed candidates
 std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
                                                     std::size_t most) {
@@ -62,6 +67,8 @@ std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateR
     out.plausible = c.plausible;
     out.cost_of_possible = c.cost_of_possible;
     if (!c.explains()) out.aside = set_aside_words(c);
+    out.separation = separable(c.separation);
+    out.separation_allowed = separable(c.separation_allowed);
   }
   return list;
 }
@@ -174,8 +181,8 @@ std::string diagnosis_json(const Diagnosis& d) {
   out.named = d.named();
   out.rivals = d.rivals();
   out.resembles = d.resembles();
+  if (const auto& exact = d.if_exact) out.if_exact = {exact->p_value, exact->named, exact->listed};
   if (const auto* adequate = d.answer_if<Adequate>()) {
-    if (const auto& exact = adequate->if_exact) out.if_exact = {exact->p_value, exact->listed};
     if (adequate->materials) out.rivals.emplace_back("materials_within_errors");
   }
   if (const auto* several = d.answer_if<NotSeparable>()) {

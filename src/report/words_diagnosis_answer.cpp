@@ -380,17 +380,40 @@ std::string materials_words(const Diagnosis& d, const Adequate& answer) {
 }
 
 /// The structure that would remain if the laws were exact; empty if none would.
-std::string if_exact_words(const Diagnosis& d, const Adequate& answer) {
-  if (!answer.if_exact || answer.if_exact->p_value > d.options.level) return "";
-  const std::vector<std::string>& ids = answer.if_exact->listed;
+std::string if_exact_words(const Diagnosis& d) {
+  if (!d.if_exact || d.if_exact->p_value > d.options.level) return "";
+  if (!d.if_exact->named.empty()) {
+    return fmt::format("If the laws were exact, the cause would be {}.",
+                       mechanism_titles(d.if_exact->named, " and "));
+  }
+  if (!d.answer_if<Adequate>()) return "";
+  const std::vector<std::string>& ids = d.if_exact->listed;
   if (d.structure.p_value <= d.options.level) {
     return "A smooth error of the laws explains this as well as any cause in the catalogue" +
            (ids.empty() ? "." : "; the closest: " + cause_words(ids, " or ") + ".");
   }
   return fmt::format("If the laws were exact, structure would remain ({}){}.",
-                     p_words(answer.if_exact->p_value, quick_samples),
+                     p_words(d.if_exact->p_value, quick_samples),
                      ids.empty() ? ", unlike any cause in the catalogue"
                                  : ", most similar to " + cause_words(ids, " or "));
+}
+
+/// How well these points can tell the cause from its nearest rival; empty without a single cause.
+std::string separation_words(const Diagnosis& d) {
+  std::vector<std::string> ids = d.named().empty() ? d.rivals() : d.named();
+  if (ids.empty() && d.if_exact) ids = d.if_exact->named;
+  if (ids.empty()) return "";
+  const auto cause = std::ranges::find(d.candidates, ids.front(),
+                                       [](const CandidateResult& c) { return c.candidate.name(); });
+  if (cause == d.candidates.end() || !cause->separation || !cause->separation_allowed) return "";
+  const auto& [exact, allowed] = std::pair(*cause->separation, *cause->separation_allowed);
+  const std::string other =
+      allowed.rival == exact.rival ? "" : fmt::format(" (then {})", words_of(allowed.rival));
+  return fmt::format(
+      "These points can separate {} from its nearest rival, {}, with probability {:.2f} if the "
+      "laws "
+      "are exact, {:.2f} if they err by 10 %{}.",
+      words_of(ids.front()), words_of(exact.rival), exact.probability, allowed.probability, other);
 }
 
 /// The error rates of the diagnosis for this design: one sentence for each cause and one for false
@@ -512,7 +535,6 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
   if (const auto* adequate = d.answer_if<Adequate>()) {
     sentences.push_back(evidence_words(d));
     sentences.push_back(materials_words(d, *adequate));
-    sentences.push_back(if_exact_words(d, *adequate));
   } else if (d.answer_if<CauseNamed>()) {
     const std::vector<std::string> named = d.named();
     sentences.push_back(fmt::format("Of all mechanisms in the catalogue, only {} {}.",
@@ -526,6 +548,7 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
     sentences.push_back(unexplained_words(d));
     sentences.push_back(advice_words(d));
   }
+  sentences.push_back(if_exact_words(d));
   std::erase(sentences, "");
   const std::vector<std::string> rates = rates_words(d);
   sentences.insert(sentences.end(), rates.begin(), rates.end());
@@ -543,6 +566,7 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
                                 parameters_words(extended->cause)));
     if (!d.answer_if<CauseNamed>()) notes.push_back(gain_words(d));
   }
+  notes.push_back(separation_words(d));
   if (!d.answer_if<Unexplained>()) notes.push_back(rival_errors_words(d));
   const bool shown = !d.answer_if<Adequate>() && !where_words(d).empty();
   if (const std::string found = structure_words(d); shown && !found.empty()) {

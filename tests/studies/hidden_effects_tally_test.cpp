@@ -64,6 +64,9 @@ TEST(HiddenEffectsTally, CountsEveryBarOverItsOwnDataSets) {
   EXPECT_EQ(tally.made, 9);
   expect(tally, "named", 1, 3);
   expect(tally, "separable_named", 1, 2);
+  expect(tally, "nameable_named", 1, 2);
+  expect(tally, "nameable_if_exact", 1, 2);
+  expect(tally, "if_exact_wrong", 0, 3);
   expect(tally, "named_or_law", 2, 3);
   expect(tally, "listed", 2, 3);
   expect(tally, "wrong", 1, 3);
@@ -77,6 +80,13 @@ TEST(HiddenEffectsTally, CountsEveryBarOverItsOwnDataSets) {
   EXPECT_EQ(tally.not_named.told_by_cause, 1);
   EXPECT_EQ(tally.errors_told_astray.k, 0);
   EXPECT_EQ(tally.errors_told_astray.n, 3);
+}
+
+// Lambda is 64, 2.25 and 25: the normal distribution at 60/16, -1.75/3 and 21/10 (tables).
+TEST(HiddenEffectsTally, AddsWhatAnIdealJudgeWouldName) {
+  const StudyTally tally = tally_of(answers(), 12, {});
+  ASSERT_TRUE(tally.nameable);
+  EXPECT_NEAR(*tally.nameable, 0.9999 + 0.2798 + 0.9821, 2e-4);
 }
 
 TEST(HiddenEffectsTally, KeepsWhatWasHiddenApartByStrengthAndDesign) {

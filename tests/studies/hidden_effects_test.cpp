@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <ostream>
 
+#include "analysis/analysis.hpp"
+#include "core/files.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "validation/studies/diagnosis_answer.hpp"
+#include "validation/synthetic/case.hpp"
 
 namespace {
 
+using namespace recoil;
 using namespace recoil::hidden;
 
 struct Question {
@@ -148,6 +153,33 @@ TEST(IfExact, TellsWhatTheErrorsOfLawsHide) {
     hints += ask(question.order, RECOIL_BINARY, {}).hint ? 1 : 0;
   }
   EXPECT_LE(hints, 2) << "of 8: more has a probability of 0.6 % at one of twenty";
+}
+
+/// How well points tell a cause from its nearest rival, against fits of that rival to points
+/// without noise. The diagnosis sees noisy points, whose fit has a strength that is off by its
+/// error: here at most a fifth, so that lambda may be off by two fifths and by its own
+/// linearisation.
+TEST(Separation, AgreesWithFitsToPointsWithoutNoise) {
+  for (const char* effect : {"plastic_yield", "gas_film", "velocity_offset"}) {
+    const Case made = make_case({"wall", {effect}, 20.0, 0});
+    ASSERT_TRUE(made.reached);
+    const ScratchFolder noisy, clean;
+    const FitSpec spec = load_fit(write_case(made, noisy.path()));
+    const Diagnosis found = diagnose(spec, load_datasets(spec), DiagnosisOptions());
+    const auto cause = std::ranges::find(found.candidates, std::string(effect),
+                                         [](const auto& c) { return c.candidate.name(); });
+    ASSERT_NE(cause, found.candidates.end()) << effect;
+    ASSERT_TRUE(cause->separation) << effect;
+    const double left =
+        misfit_left(write_case(without_noise(made), clean.path()), cause->separation->rival);
+    const auto rival = std::ranges::find(found.candidates, cause->separation->rival,
+                                         [](const auto& c) { return c.candidate.name(); });
+    ASSERT_NE(rival, found.candidates.end());
+    // A rival with free exponents, which the diagnosis may prefer, fits better.
+    if (!rival->candidate.released) EXPECT_GT(cause->separation->lambda, 0.5 * left * left);
+    EXPECT_LT(cause->separation->lambda, 2.0 * left * left) << effect;
+    EXPECT_LE(cause->separation_allowed->probability, cause->separation->probability) << effect;
+  }
 }
 
 /// Losses of the base model that are wrong by 3 % are no alarm.

@@ -81,6 +81,8 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.hint = !exact.is_null() && exact.at("p_value") <= answer.at("settings").at("level");
   a.hinted =
       a.hint ? exact.at("listed").get<std::vector<std::string>>() : std::vector<std::string>();
+  a.exact_named =
+      a.hint ? exact.at("named").get<std::vector<std::string>>() : std::vector<std::string>();
   a.errors_told = false;
   for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();

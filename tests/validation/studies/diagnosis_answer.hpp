@@ -37,8 +37,9 @@ struct Answered {
   std::vector<std::string> resembles;  ///< what fits best and cannot be true
   std::vector<std::string> certain;    ///< of the rivals, those in every explanation
   std::string shared_cause;            ///< of which all rivals are laws
-  bool hint = false;                   ///< adequate, but exact laws would leave structure
+  bool hint = false;                   ///< no cause is named, but exact laws would leave structure
   std::vector<std::string> hinted;     ///< what that is most like
+  std::vector<std::string> exact_named;  ///< what would then be named
   int odd = 0;               ///< points that are misread by more than 5 standard deviations,
   int odd_found = 0;         ///< of these, set aside by the answer,
   int right = 0;             ///< the others,
@@ -49,7 +50,7 @@ struct Answered {
   OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
                 verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
-                odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
+                exact_named, odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
 };
 
 /// How an answer stands to the truth.

@@ -30,8 +30,14 @@ Sentence verdict_words(const Bar& bar, const Count& count) {
 }
 
 Table bars_table(const StudyTally& tally) {
+  std::vector<Bar> counted;
+  for (const Bar& bar : study_bars()) {
+    const bool found =
+        std::ranges::any_of(tally.bars, [&](const auto& one) { return one.first == bar.id; });
+    if (found) counted.push_back(bar);
+  }
   return study_table<Bar>(
-      study_bars(),
+      counted,
       {{"bar", [](const Bar& bar) { return word_cell(bar.words); }, true},
        {"wanted",
         [](const Bar& bar) {
@@ -178,15 +184,24 @@ Sentence careless_words(const StudyTally& tally) {
       share(tally.bar("unstated_told")), share(tally.errors_told_astray));
 }
 
+/// What nobody could do better; empty for results that were made without it.
+Sentence ideal_words(const StudyTally& tally) {
+  if (!tally.nameable) return {};
+  return say(
+      "An ideal judge, who knows the noise and the laws and asks for odds of e², would name {:.0f} "
+      "of the {} visible effects. ",
+      *tally.nameable, tally.bar("named").n);
+}
+
 Sentence missed_words(const StudyTally& tally) {
   return say(
-      "Of the {} visible effects that were not named outright, {} have a neighbour in the "
+      "{}Of the {} visible effects that were not named outright, {} have a neighbour in the "
       "catalogue that leaves a misfit below {:g} with all its parameters fitted (a table follows); "
       "in {} of these all that is listed are laws of one cause ({}: JKR's work, hysteresis per "
       "area and crack rate are adhesion hysteresis; spreads of size and of adhesion are unequal "
       "impacts averaged in one point), which is then told by name.",
-      tally.not_named.n, tally.not_named.alike, separable, tally.not_named.told_by_cause,
-      code("shared_cause"));
+      ideal_words(tally), tally.not_named.n, tally.not_named.alike, separable,
+      tally.not_named.told_by_cause, code("shared_cause"));
 }
 
 std::vector<Block> foreword(const StudyTally& tally) {

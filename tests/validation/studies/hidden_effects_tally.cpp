@@ -60,6 +60,17 @@ bool is_told(const Answered& a) {
 }
 bool can_be_named(const Answered& a) { return a.nearest_rival.misfit >= separable; }
 
+/// Would an ideal judge name it in half of the data sets or more?
+bool is_nameable(const Answered& a) { return nameable(a) >= 0.5; }
+
+/// What is hidden is named, if need be on the condition that the laws are exact.
+bool is_named_if_exact(const Answered& a) {
+  return mark_of(a) == Mark::named || a.exact_named == a.order.effects;
+}
+bool is_wrong_if_exact(const Answered& a) {
+  return !a.exact_named.empty() && a.exact_named != a.order.effects;
+}
+
 Test in(Arm arm) {
   return [arm](const Answered& a) { return arm_of(a.order) == arm; };
 }
@@ -304,6 +315,13 @@ const std::vector<Bar>& study_bars() {
       {"named", "visible effect named outright", 0.80, true, effects, named},
       {"separable_named", "the same, where the nearest other cause leaves a misfit of 4 or more",
        0.80, true, both(effects, can_be_named), named},
+      {"nameable_named", "the same, where an ideal judge names it in half of the cases or more",
+       0.80, true, both(effects, is_nameable), named},
+      {"nameable_if_exact", "the same: named, or named on the condition that the laws are exact",
+       0.90, true, both(effects, is_nameable), is_named_if_exact},
+      {"if_exact_wrong", "visible effect: another cause named on that condition", 0.02, false,
+       effects, is_wrong_if_exact},
+      {"bent_if_exact_wrong", "the same, law bent by 10 %", 0.08, false, bent, is_wrong_if_exact},
       {"named_or_law", "visible effect named, or the cause of which it and all its rivals are laws",
        0.80, true, effects, is_told},
       {"listed", "visible effect among named and rivals", 0.95, true, effects, listed},
@@ -367,6 +385,13 @@ const std::vector<Bar>& study_bars() {
   return bars;
 }
 
+double nameable(const Answered& answered) {
+  const double lambda = answered.nearest_rival.misfit * answered.nearest_rival.misfit;
+  if (!(lambda > 0.0)) return 0.0;
+  if (!std::isfinite(lambda)) return 1.0;
+  return 0.5 * std::erfc((4.0 - lambda) / (2.0 * std::sqrt(2.0 * lambda)));
+}
+
 int PowerRow::marked(Mark mark) const {
   const auto found = marks.find(std::string(name_of(mark)));
   return found == marks.end() ? 0 : found->second;
@@ -388,6 +413,9 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   tally.made = static_cast<int>(those(answers, [](const Answered&) { return true; }).size());
   for (const Bar& bar : study_bars()) tally.bars.emplace_back(bar.id, count(bar, answers));
   tally.not_named = not_named_of(answers);
+  double ideal = 0.0;
+  for (const Answered* a : those(answers, seen(Arm::effect))) ideal += nameable(*a);
+  tally.nameable = ideal;
   tally.rivals = rivals_of(answers);
   tally.powers = powers_of(answers);
   tally.confusion = confusion_of(answers);

@@ -48,6 +48,12 @@ const std::vector<Bar>& study_bars();
 /// No other single cause of the catalogue comes closer than this, so that a name can be given.
 inline constexpr double separable = 4.0;
 
+/// The probability that the deviance of the nearest rival exceeds that of the cause by 4, for as
+/// many parameters: nobody who asks for odds of e^2 names the cause more often. With lambda the
+/// square of the misfit that the rival leaves, the difference is normal with the mean lambda and
+/// the variance 4 lambda.
+double nameable(const Answered& answered);
+
 /// Data sets of one kind and strength, and what was answered.
 struct PowerRow {
   Arm arm = Arm::effect;
@@ -134,6 +140,7 @@ struct StudyTally {
   int made = 0;       ///< of the tried: the wanted strength exists
   Named<Count> bars;  ///< by the id of the bar
   NotNamed not_named;
+  OrAbsent<double> nameable;  ///< expected number of visible effects that anybody could name
   std::vector<RivalRow> rivals;
   std::vector<PowerRow> powers;
   Confusion confusion;
@@ -144,7 +151,7 @@ struct StudyTally {
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
   OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
-  RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, rivals, powers, confusion, alarms,
+  RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, nameable, rivals, powers, confusion, alarms,
                 errors_told_astray, times, loop, complaints, unreached, methods)
 
   Count bar(std::string_view id) const;  ///< of no data sets where the study has no such bar
