@@ -176,7 +176,9 @@ TEST(Separation, AgreesWithFitsToPointsWithoutNoise) {
                                          [](const auto& c) { return c.candidate.name(); });
     ASSERT_NE(rival, found.candidates.end());
     // A rival with free exponents, which the diagnosis may prefer, fits better.
-    if (!rival->candidate.released) EXPECT_GT(cause->separation->lambda, 0.5 * left * left);
+    if (!rival->candidate.released) {
+      EXPECT_GT(cause->separation->lambda, 0.5 * left * left) << effect;
+    }
     EXPECT_LT(cause->separation->lambda, 2.0 * left * left) << effect;
     EXPECT_LE(cause->separation_allowed->probability, cause->separation->probability) << effect;
   }
