@@ -474,11 +474,17 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   return found;
 }
 
-/// `diagnose_all` with the answer for exact laws, unless a cause is named without them.
+/// `diagnose_all` with the answer for exact laws, unless a cause is named without them. Where an
+/// error of the laws explains as much as any cause, the closest causes are those of its search.
 Diagnosis diagnose_both(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
   Diagnosis diagnosis = diagnose_all(base, base_intervals);
   const bool wanted = !base.options.answer_alone && !diagnosis.answer_if<CauseNamed>();
   if (wanted) diagnosis.if_exact = if_exact(base);
+  const bool law_error_competes = diagnosis.answer_if<Adequate>() && !diagnosis.candidates.empty();
+  if (diagnosis.if_exact && law_error_competes) {
+    const double margin = has_one_size(base.fitted.data) ? margin_at_one_size : base.options.margin;
+    diagnosis.if_exact->listed = best_where(may_act, diagnosis.candidates, margin);
+  }
   return diagnosis;
 }
 
