@@ -151,8 +151,8 @@ struct StudyTally {
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
   OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
-  RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, nameable, rivals, powers, confusion, alarms,
-                errors_told_astray, times, loop, complaints, unreached, methods)
+  RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, nameable, rivals, powers, confusion,
+                alarms, errors_told_astray, times, loop, complaints, unreached, methods)
 
   Count bar(std::string_view id) const;  ///< of no data sets where the study has no such bar
 };
