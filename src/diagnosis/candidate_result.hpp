@@ -86,8 +86,8 @@ struct CandidateResult {
   bool only_by_error = false;
   bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
-  /// With exact laws, and with laws that err as is usual; nullopt for what cannot be a cause, and
-  /// without a rival.
+  /// With exact laws, and with laws that err as is usual. Only for the first possible causes, and
+  /// if there is a rival.
   std::optional<Separation> separation, separation_allowed;
 
   bool explains() const { return !set_aside; }

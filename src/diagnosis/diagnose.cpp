@@ -474,18 +474,16 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   return found;
 }
 
-/// `diagnose_all` with the answer for exact laws, unless a cause is named without them. Where an
-/// error of the laws explains as much as any cause, the closest causes are those of its search.
-Diagnosis diagnose_both(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
-  Diagnosis diagnosis = diagnose_all(base, base_intervals);
-  const bool wanted = !base.options.answer_alone && !diagnosis.answer_if<CauseNamed>();
-  if (wanted) diagnosis.if_exact = if_exact(base);
+/// Adds the answer for exact laws, unless a cause is named without them. Where an error of the laws
+/// explains as much as any cause, the closest causes are those of its search.
+void add_exact_answer(const SearchBase& base, Diagnosis& diagnosis) {
+  if (base.options.answer_alone || diagnosis.answer_if<CauseNamed>()) return;
+  diagnosis.if_exact = if_exact(base);
   const bool law_error_competes = diagnosis.answer_if<Adequate>() && !diagnosis.candidates.empty();
   if (diagnosis.if_exact && law_error_competes) {
     const double margin = has_one_size(base.fitted.data) ? margin_at_one_size : base.options.margin;
     diagnosis.if_exact->listed = best_where(may_act, diagnosis.candidates, margin);
   }
-  return diagnosis;
 }
 
 /// Returns `fitted`, the fit of `spec`.
@@ -554,13 +552,17 @@ Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
   const auto all = all_points(spec, datasets, start, options);
   const std::vector<OutlyingPoint> outlying = outlying_points(all->base);
   Diagnosis for_all =
-      diagnose_both(all->base, same_fit ? base_intervals : std::vector<IntervalSet>());
+      diagnose_all(all->base, same_fit ? base_intervals : std::vector<IntervalSet>());
   for_all.fitted = std::make_shared<const FitResult>(fitted);
   // Errors that all points have may also make points outlie, and are the simpler answer.
   const bool errors_do = std::ranges::any_of(for_all.unstated, &UnstatedErrors::leave_nothing);
   const auto others = errors_do ? nullptr : other_points(*all, outlying);
-  if (!others) return for_all;
-  Diagnosis diagnosis = diagnose_both(others->base, {});
+  if (!others) {
+    add_exact_answer(all->base, for_all);
+    return for_all;
+  }
+  Diagnosis diagnosis = diagnose_all(others->base, {});
+  add_exact_answer(others->base, diagnosis);
   diagnosis.fitted = for_all.fitted;
   diagnosis.outlying = outlying;
   diagnosis.for_all =

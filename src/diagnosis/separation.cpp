@@ -36,9 +36,10 @@ struct Rival {
   Refit refit;
 };
 
-class Judge {
+/// The points of a cause without noise, and the fits of its rivals to them.
+class CleanPoints {
  public:
-  Judge(const SearchBase& base, const CandidateResult& cause, Observations points)
+  CleanPoints(const SearchBase& base, const CandidateResult& cause, Observations points)
       : base_(base), cause_(cause), points_(std::move(points)) {
     const Refit own =
         refit_candidate(cause.candidate, points_, base.fitted.weights, cause.refit.theta, 0);
@@ -84,20 +85,20 @@ void separate_one(const SearchBase& base, const std::vector<CandidateResult*>& c
                   CandidateResult& cause) {
   std::optional<Observations> points = points_of(base, cause);
   if (!points) return;
-  const Judge judge(base, cause, *std::move(points));
+  const CleanPoints clean(base, cause, *std::move(points));
   std::vector<Rival> rivals;
   for (const CandidateResult* other : causes) {
     if (other == &cause) continue;
-    Rival rival{other, judge.fitted(*other)};
+    Rival rival{other, clean.fitted(*other)};
     if (rival.refit.usable) rivals.push_back(std::move(rival));
   }
   std::ranges::sort(rivals, {}, [](const Rival& one) { return one.refit.chi2; });
   std::vector<Separation> exact, allowed;
   for (const Rival& rival : rivals) {
-    exact.push_back(judge.separation_from(*rival.candidate, rival.refit));
+    exact.push_back(clean.separation_from(*rival.candidate, rival.refit));
     if (allowed.size() == most_near) continue;
-    const Refit refit = judge.fitted_with_errors(rival);
-    if (refit.usable) allowed.push_back(judge.separation_from(*rival.candidate, refit));
+    const Refit refit = clean.fitted_with_errors(rival);
+    if (refit.usable) allowed.push_back(clean.separation_from(*rival.candidate, refit));
   }
   if (!exact.empty()) cause.separation = std::ranges::min(exact, harder);
   if (!allowed.empty()) cause.separation_allowed = std::ranges::min(allowed, harder);

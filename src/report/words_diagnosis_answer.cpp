@@ -411,8 +411,7 @@ std::string separation_words(const Diagnosis& d) {
       allowed.rival == exact.rival ? "" : fmt::format(" (then {})", words_of(allowed.rival));
   return fmt::format(
       "These points can separate {} from its nearest rival, {}, with probability {:.2f} if the "
-      "laws "
-      "are exact, {:.2f} if they err by 10 %{}.",
+      "laws are exact, {:.2f} if they err by 10 %{}.",
       words_of(ids.front()), words_of(exact.rival), exact.probability, allowed.probability, other);
 }
 
