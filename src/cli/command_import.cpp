@@ -53,7 +53,9 @@ void require_used(const GivenOptions& given, ImportFormat format) {
 
 ImportRequest request_of(const GivenOptions& given) {
   ImportRequest r;
-  r.file = given.text("FILE");
+  const std::vector<std::string> files = given.texts("FILE");
+  r.file = files.front();
+  r.more_files.assign(files.begin() + 1, files.end());
   r.format = *value_named<ImportFormat>(given.text("--format"));
   r.into = given.text("--into");
   r.sheet = given.text("--sheet");

@@ -172,10 +172,13 @@ std::string note_sentence(const ImportNote& note) {
       std::vector<std::string> others = note.names;
       const std::string read = quote(others.front());
       others.erase(others.begin());
-      return others.empty() ? fmt::format("the sheet {} was read", read)
-                            : fmt::format("the sheet {} was read; --sheet NAME reads another: {}",
-                                          read, listed(others));
+      return others.empty()
+                 ? fmt::format("the sheet {} was read", read)
+                 : fmt::format("the sheet {} was read; --sheet NAME or NUMBER reads another: {}",
+                               read, listed(others));
     }
+    case columns_known:
+      return fmt::format("columns were taken by their names: {}; --map names others", names);
     case lines_skipped:
       return fmt::format("skipped as a comment or title: {}", names);
     case rows_left_out:
