@@ -31,11 +31,11 @@ void require_used(const GivenOptions& given, ImportFormat format) {
       {"--sd-of", {csv}},
       {"--scatter", {webplotdigitizer}},
       {"--captured-below", {webplotdigitizer, heights}},
-      {"--drop-error", {heights, intervals}},
-      {"--rebound-error", {heights}},
-      {"--time-error", {intervals}},
+      {"--drop-error", {heights, intervals, rest, tops}},
+      {"--rebound-error", {heights, tops}},
+      {"--time-error", {intervals, rest, blocks}},
       {"--average", {heights}},
-      {"--gravity", {heights, intervals, track}},
+      {"--gravity", {heights, intervals, track, rest, tops, blocks}},
       {"--fps", {track}},
       {"--scale", {track}},
   };
@@ -114,9 +114,11 @@ void add_import(Program& program) {
       "import",
       "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
 Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
-bounces), track (heights over time) and csv. --map assigns columns to quantities, with units: um,
-mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere, a number without a unit counts in um if it is a
-diameter, otherwise in the SI unit. import overwrites points only with --replace.
+bounces), track (heights over time), rest (drop heights and times to rest), tops (heights of
+successive tops), blocks (times of several bounces together) and csv. --map assigns columns to
+quantities, with units: um, mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere, a number without a unit
+counts in um if it is a diameter, otherwise in the SI unit. import overwrites points only with
+--replace.
 
   recoil import fig7.csv --format webplotdigitizer --into datasets/mine \
     --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like datasets/wall1990-mica

@@ -140,6 +140,12 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
       return read_track(request);
+    case ImportFormat::rest:
+      return read_rest(request, sphere_in_air(system));
+    case ImportFormat::tops:
+      return read_tops(request, sphere_in_air(system));
+    case ImportFormat::blocks:
+      return read_blocks(request, sphere_in_air(system));
     case ImportFormat::csv:
       break;
   }

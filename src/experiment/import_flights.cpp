@@ -21,17 +21,9 @@ class Flights {
 
   double gravity() const { return gravity_; }
 
-  /// The flights of a sphere of `series` in air. nullopt in vacuum, and if size, density or air are
-  /// unknown or impossible (the dataset is then refused later).
   std::optional<AirFlight> in_air(const std::string& series,
                                   const std::optional<double>& diameter_in_file) const {
-    const auto diameter = known_diameter(request_, series, diameter_in_file);
-    const bool possible = diameter && limits::diameter.contains(*diameter) &&
-                          limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
-                          limits::pressure.contains(sphere_.air.pressure) &&
-                          limits::temperature.contains(sphere_.air.temperature);
-    if (!possible) return std::nullopt;
-    return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
+    return flight_in_air(request_, sphere_, series, diameter_in_file);
   }
 
   /// Records the effect of air on one point. @param in_vacuum e if air drag is neglected
@@ -387,6 +379,18 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
 }  // namespace
 
 bool air_acts(const Air& air) { return air.pressure >= 1e-3; }
+
+std::optional<AirFlight> flight_in_air(const ImportRequest& request, const SphereInAir& sphere,
+                                       const std::string& series,
+                                       const std::optional<double>& diameter_in_file) {
+  const auto diameter = known_diameter(request, series, diameter_in_file);
+  const bool possible = diameter && limits::diameter.contains(*diameter) &&
+                        limits::density.contains(sphere.density) && air_acts(sphere.air) &&
+                        limits::pressure.contains(sphere.air.pressure) &&
+                        limits::temperature.contains(sphere.air.temperature);
+  if (!possible) return std::nullopt;
+  return AirFlight(sphere.air, *diameter, sphere.density, request.gravity);
+}
 
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
   ImportTable table(request, {{"series", Dimension::text},

@@ -90,6 +90,9 @@ Provenance provenance_for(const ImportRequest& request,
     case ImportFormat::heights:
     case ImportFormat::intervals:
     case ImportFormat::track:
+    case ImportFormat::rest:
+    case ImportFormat::tops:
+    case ImportFormat::blocks:
       return Provenance::measured;
     case ImportFormat::csv:
       break;
@@ -102,8 +105,8 @@ Provenance provenance_for(const ImportRequest& request,
 
 /// Writes the stated conditions. Flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
-  const bool flights =
-      request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
+  const bool flights = request.format != ImportFormat::webplotdigitizer &&
+                       request.format != ImportFormat::csv && request.format != ImportFormat::track;
   const auto put_if_missing = [&](const char* key, double otherwise) {
     if (system.contains("conditions") && system["conditions"].contains(key)) return;
     system["conditions"][key] = otherwise;
@@ -167,6 +170,23 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           "after an impact meet{}.",
           source_name(request),
           request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
+    case ImportFormat::rest:
+      return fmt::format(
+          "Drop heights and times to rest, imported from {}: e = (T - t) / (T + t) with the time "
+          "of "
+          "the fall t = sqrt(2 h / g), V = g t with g = {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
+    case ImportFormat::tops:
+      return fmt::format(
+          "Heights of successive tops, imported from {}: e = sqrt(h2 / h1), V = sqrt(2 g h1) with "
+          "g "
+          "= {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
+    case ImportFormat::blocks:
+      return fmt::format(
+          "Times of several bounces together, imported from {}: one e for two successive blocks, V "
+          "between them, with g = {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
     case ImportFormat::csv:
       break;
   }
@@ -316,8 +336,11 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   left.left_out = leave_out_contradictions(stated, own);
   if (!left.left_out.empty()) notes.push_back(left);
   put_conditions(request, stated);
-  if (request.format == ImportFormat::heights) stated["method"] = name_of(Method::drop_heights);
-  if (request.format == ImportFormat::intervals) {
+  if (request.format == ImportFormat::heights || request.format == ImportFormat::tops) {
+    stated["method"] = name_of(Method::drop_heights);
+  }
+  if (request.format == ImportFormat::intervals || request.format == ImportFormat::rest ||
+      request.format == ImportFormat::blocks) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
   if (request.format == ImportFormat::track) stated["method"] = name_of(Method::video);

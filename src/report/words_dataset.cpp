@@ -248,8 +248,10 @@ std::string note_sentence(const ImportNote& note) {
     case drag_stays:
       return "the effect of air drag on the tracks was not removed";
     case shared_bounces:
-      return "successive points of one launch share a flight; a fit takes their errors as "
+      return "successive points of one launch share a measured value; a fit takes their errors as "
              "independent";
+    case mean_of_bounces:
+      return "every point is the mean of several bounces, which are taken to have one e";
     case no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
     case licence_removed:
