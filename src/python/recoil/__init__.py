@@ -20,7 +20,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
-from ._datasets import Dataset, Material
+from ._datasets import Dataset, Material, named
 from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
@@ -88,7 +88,7 @@ def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
     """``source``, or a dataset made of a frame or arrays and the other arguments in ``stated``."""
     given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
     if hasattr(source, "columns"):
-        frame: Any = source
+        frame: Any = named(source)
         for name, column in (("e", e), *((n, given.get(n)) for n in _ARRAYS if n != "d")):
             if column is not None:
                 refuse(f"{name} is given beside a frame", "make it a column of the frame")
@@ -156,7 +156,8 @@ def fit(
 
     ``fit(V, e, d=4.9, particle="polystyrene", surface="silicon")`` fits arrays: incident velocity
     [m/s], restitution [1], diameter [um], with the other arguments of ``Dataset.from_arrays``.
-    ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv;
+    ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv,
+    or the short names V, e, d, V_sd and e_sd;
     ``d`` is then the diameter of all rows, and ``units`` is that of ``Dataset.from_pandas``.
     ``provenance`` is ``"measured"`` unless given.
 

@@ -29,8 +29,17 @@ _UNITS = {
     "velocity_sd": "m/s", "setting_velocity_sd": "m/s",
     "restitution": "1", "restitution_sd": "1", "tangential_restitution": "1",
 }
+_ALIASES = {"V": "incident_velocity", "e": "restitution", "d": "diameter",
+            "V_sd": "velocity_sd", "e_sd": "restitution_sd"}
 _TEXTS = ("series", "setting", "launch")
 _COUNTS = ("events", "captured")
+
+
+def named(frame: "pandas.DataFrame") -> "pandas.DataFrame":
+    """``frame`` with the names of points.csv for V, e, d, V_sd and e_sd."""
+    short = {column: name for column, name in _ALIASES.items()
+             if column in frame.columns and name not in frame.columns}
+    return frame.rename(columns=short) if short else frame
 
 
 def _material(body: str, stated: Any) -> Any:
@@ -159,7 +168,7 @@ class Dataset:
         ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
         ``captured``, ``setting``, ``setting_velocity_sd``, ``incidence_angle`` (its unit, ``"deg"``
         or ``"rad"``, has to be in ``units``), ``tangential_restitution`` and the conditions.
-        Missing values are empty cells.
+        Missing values are empty cells. ``V``, ``e``, ``d``, ``V_sd`` and ``e_sd`` are short names.
         Without ``series``, the points of each diameter form a series.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
@@ -172,9 +181,10 @@ class Dataset:
         Raises ``InputError``, which names the column and the row, counted from 0.
         """
         own = _stated(like, particle=particle, surface=surface, provenance=provenance, **more)
+        frame = named(frame)
         said = dict(_UNITS)
         for known in (like.units if like else {}, frame.attrs.get("units", {}), units or {}):
-            said.update(known)
+            said.update({_ALIASES.get(column, column): unit for column, unit in known.items()})
         if "series" not in frame.columns and "diameter" in frame.columns:
             frame = frame.assign(series=_series_of(frame["diameter"], said["diameter"]))
         fields = _fields(map(str, frame.columns), said)

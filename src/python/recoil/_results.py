@@ -117,6 +117,12 @@ class _Reported(_WithPictures):
         return str(self._compiled.summary())
 
 
+def _next(text: str, call: str) -> str:
+    """A report whose last words name a call instead of a command."""
+    head, found, _ = text.rpartition("Next: recoil ")
+    return f"{head}Next: {call}.\n" if found else text
+
+
 def _numbers(values: list[Optional[float]]) -> Array:
     """An array, with NaN for missing numbers."""
     import numpy as np
@@ -185,6 +191,10 @@ class FitResult(_Reported):
         super().__init__(analysis)
         self._fitted = Model(analysis.model())
 
+    def __str__(self) -> str:
+        return _next(self._text, "result.diagnose(); as a page: result.save_page(file); "
+                                 "all details: result.report(verbose=True)")
+
     # -- methods --
 
     def simulate(self, V: npt.ArrayLike, d: npt.ArrayLike, *,  # noqa: N803
@@ -239,7 +249,8 @@ class FitResult(_Reported):
         return pandas.DataFrame.from_dict(rows, orient="index")
 
     def draws(self) -> dict[str, dict[str, Array]]:
-        """The draws of the posterior, in the format of ``arviz.from_dict(**result.draws())``.
+        """The draws of the posterior, in the format of ``arviz.from_dict(result.draws())``;
+        ArviZ 0.x takes them as ``arviz.from_dict(**result.draws())``.
 
         The arrays [chain, draw] are ``posterior`` (parameters and capture velocities in SI units)
         and ``sample_stats`` (``lp``, ln posterior; ``log_likelihood``; ``log_prior``).
@@ -413,6 +424,48 @@ class FitResult(_Reported):
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
         return self.simulate(V, d, dataset=dataset).restitution
 
+    @property
+    def aic(self) -> float:
+        """-2 ln L + 2 ``nvarys``; NaN without stated standard deviations, because every fit then
+        estimates its own noise (compare such fits by ``compare``)."""
+        return self._criterion(2.0)
+
+    @property
+    def bic(self) -> float:
+        """-2 ln L + ln(``ndata``) ``nvarys``; NaN where ``aic`` is."""
+        return self._criterion(math.log(self.ndata))
+
+    def _criterion(self, each: float) -> float:
+        deviance = self.goodness.minus_two_log_likelihood
+        return math.nan if deviance is None else float(deviance) + each * self.nvarys
+
+    @property
+    def rsquared(self) -> float:
+        """1 - sum (e - ``best_fit``)^2 / sum (e - mean e)^2 over the points with a measured e [1];
+        NaN if these have one value of e."""
+        import numpy as np
+
+        e = _column(self.residuals, "restitution")
+        measured = np.isfinite(e)
+        total = float(((e[measured] - e[measured].mean()) ** 2).sum()) if measured.any() else 0.0
+        left = float(((e - self.best_fit)[measured] ** 2).sum())
+        return 1.0 - left / total if total > 0.0 else math.nan
+
+    def ci_report(self) -> str:
+        """All intervals of the free parameters as a table in text."""
+        found = self.conf_interval()
+        kinds = [kind for kind in next(iter(found.values()), {})
+                 if any(one[kind] for one in found.values())]
+        rows = [["", "estimate", *kinds]]
+        for name, intervals in found.items():
+            ends = [f"[{one[0]:.3g}, {one[1]:.3g}]" if one else "-"
+                    for one in (intervals[kind] for kind in kinds)]
+            rows.append([f"{name} [{self.parameters[name].unit}]", f"{self.parameters[name].value:.3g}", *ends])
+        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+        head = f"{100 * self.options.level:g} % intervals"
+        return "\n".join([head, *("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+                                  for row in rows)])
+
     def fit_report(self) -> str:
         """``report(verbose=True)``."""
         return self.report(verbose=True)
@@ -446,6 +499,10 @@ class Diagnosis(_Reported):
     gain: Optional[Facts]
     next_experiment: list[Facts]
     warnings: list[str]
+
+    def __str__(self) -> str:
+        return _next(self._text, "result.save(folder) writes the extended model as a fit file; "
+                                 "all details: result.report(verbose=True)")
 
     def save(self, folder: PathLike) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
