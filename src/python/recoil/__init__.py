@@ -24,7 +24,7 @@ from ._datasets import Dataset, Material
 from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, plain, takes_options
+from ._options import given, path_of, plain, takes_options
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) ->
         if given:
             refuse(f"{', '.join(given)} cannot be given together with a fit file",
                    "state it in the file, or give the dataset instead of the file")
-        return _recoil.load_fit(os.fspath(source))
+        return _recoil.load_fit(path_of("source", source))
     listed = [source] if isinstance(source, (str, os.PathLike, Dataset)) else list(source)
     datasets = [one if isinstance(one, Dataset) else Dataset(one) for one in listed]
     text = f"dataset = {_toml([one._data.folder for one in datasets])}\n"
@@ -236,12 +236,8 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
         if isinstance(one, FitResult):
             named.append((f"fit {number}", one.json))
         else:
-            try:
-                with open(one, encoding="utf-8") as file:
-                    named.append((os.fspath(one), file.read()))
-            except OSError as error:
-                message = f"{os.fspath(one)}: {error.strerror}"
-                raise InputError(message, file=os.fspath(one), problem=str(error.strerror)) from error
+            file = path_of(f"fit {number}", one)
+            named.append((file, _recoil.read_text_file(file)))
     if len(named) < 2:
         refuse(f"a comparison needs two or more fits, not {len(named)}", "give another one")
     return Comparison(*_recoil.compare(named))
@@ -279,7 +275,7 @@ def pair(
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
     is found.
     """
-    return Pairing(_recoil.pair(os.fspath(passages), given("pair", locals())))
+    return Pairing(_recoil.pair(path_of("passages", passages), given("pair", locals())))
 
 
 def schema(name: str) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Un
 
 from . import _recoil
 from ._errors import InputError, refuse, refuse_to_replace
-from ._options import numbers_of, plain
+from ._options import numbers_of, path_of, plain
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -126,8 +126,8 @@ class Dataset:
     """
 
     def __init__(self, folder: PathLike) -> None:
-        self._data = _recoil.load_dataset(os.fspath(folder))
-        place = Path(folder)
+        place = Path(path_of("folder", folder))
+        self._data = _recoil.load_dataset(place)
         package = (place / "datapackage.json").read_text(encoding="utf-8-sig")
         self._package: dict[str, Any] = json.loads(package)
         self._csv = (place / self._package["resources"][0]["path"]).read_text(encoding="utf-8-sig")
@@ -286,11 +286,13 @@ class Dataset:
 
         Raises ``InputError`` if its files exist, unless ``replace`` is true.
         """
-        points = Path(folder) / self._package["resources"][0]["path"]
+        place = Path(path_of("folder", folder))
+        points = place / self._package["resources"][0]["path"]
         if not replace:
-            refuse_to_replace(points, Path(folder) / "datapackage.json")
+            refuse_to_replace(points, place / "datapackage.json")
         package = json.dumps(self._package, indent=2, ensure_ascii=False) + "\n"
-        _recoil.write_whole_files([(points, self._csv), (Path(folder) / "datapackage.json", package)])
+        _recoil.write_whole_files(
+            [(points, self._csv), (place / "datapackage.json", package)], bool(replace))
 
     @property
     def units(self) -> dict[str, str]:

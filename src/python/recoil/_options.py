@@ -44,6 +44,23 @@ def plain(name: str, value: Any, depth: int = 0) -> Any:
     refuse(f"{name} is {shown}", "give a finite number or a text")
 
 
+def path_of(name: str, value: Any) -> str:
+    """``value``, a text or a path, as a text. A number is no path, not even of an open file.
+
+    Raises ``InputError``.
+    """
+    if not isinstance(value, (str, os.PathLike)):
+        refuse(f"{name} is {type(value).__name__}", "give the path of a file or folder")
+    path = os.fsdecode(value)
+    try:
+        encoded = os.fsencode(path)
+    except UnicodeEncodeError:
+        encoded = b""
+    if not encoded or b"\0" in encoded:
+        refuse(f"{name} is {ascii(path)}, which names no file", "give the path of a file or folder")
+    return path
+
+
 def numbers_of(name: str, values: Any, *, boolean: bool = False) -> npt.NDArray[np.float64]:
     """``values`` as an array of numbers. ``boolean``: True and False are 1 and 0.
 

@@ -14,7 +14,7 @@ from . import _recoil
 from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, takes_options
+from ._options import given, path_of, takes_options
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -224,7 +224,7 @@ class FitResult(_Reported):
 
         ``sizes``: a CSV file with the columns diameter and count.
         """
-        return Prediction(self._compiled.predict(os.fspath(sizes), given("predict", locals())))
+        return Prediction(self._compiled.predict(path_of("sizes", sizes), given("predict", locals())))
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, ends of the recommended interval and
@@ -268,15 +268,22 @@ class FitResult(_Reported):
                 "restitution": numpy.array(pointwise).T.reshape(*shape, len(pointwise))}
         return found
 
-    def save(self, folder: PathLike) -> Path:
-        """Writes ``folder``/fit.json, and returns its path."""
-        path = Path(folder) / "fit.json"
-        _recoil.write_whole_files([(path, self._json)])
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
+        """Writes ``folder``/fit.json, and returns its path.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "fit.json"
+        _recoil.write_whole_files([(path, self._json)], bool(replace))
         return path
 
-    def save_page(self, file: PathLike) -> None:
-        """Writes the page of ``recoil report``: one HTML file that contains its pictures."""
-        _recoil.write_whole_files([(Path(file), self._compiled.page())])
+    def save_page(self, file: PathLike, *, replace: bool = False) -> None:
+        """Writes the page of ``recoil report``: one HTML file that contains its pictures.
+
+        Raises ``InputError`` for a file that this process has read, a points.csv or a
+        datapackage.json, unless ``replace`` is true.
+        """
+        _recoil.write_whole_files([(Path(path_of("file", file)), self._compiled.page())], bool(replace))
 
     def plot(self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = "") -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
@@ -447,12 +454,16 @@ class Diagnosis(_Reported):
     next_experiment: list[Facts]
     warnings: list[str]
 
-    def save(self, folder: PathLike) -> Path:
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
-        ``folder``, and returns the path of the first."""
-        path = Path(folder) / "diagnosis.json"
-        extended = self._compiled.extended_toml(os.fspath(folder))
-        _recoil.write_whole_files([(path.with_name("extended.toml"), extended), (path, self._json)])
+        ``folder``, and returns the path of the first.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "diagnosis.json"
+        extended = self._compiled.extended_toml(os.fspath(path.parent))
+        _recoil.write_whole_files(
+            [(path.with_name("extended.toml"), extended), (path, self._json)], bool(replace))
         return path
 
     def __repr__(self) -> str:
@@ -510,10 +521,10 @@ class Pairing(_Result):
 
         Raises ``InputError`` if the file exists, unless ``replace`` is true.
         """
-        path = Path(file)
+        path = Path(path_of("file", file))
         if not replace:
             refuse_to_replace(path)
-        _recoil.write_whole_files([(path, self._points)])
+        _recoil.write_whole_files([(path, self._points)], bool(replace))
         return path
 
     def __repr__(self) -> str:
