@@ -55,9 +55,8 @@ std::string passages() {
   return csv;
 }
 
-const Words pair_words = {"pair",         "passages.csv",
-                          "--unit",       "time=s,velocity=m/s,diameter=um",
-                          "--provenance", "synthetic"};
+const Words pair_words = {"pair", "passages.csv", "--unit", "time=s,velocity=m/s,diameter=um"};
+const Words into_a_dataset = {"--like", "data", "--provenance", "synthetic", "--into"};
 
 TEST(Safety, NoCommandReplacesDataUnasked) {
   const Workplace place;
@@ -69,7 +68,7 @@ TEST(Safety, NoCommandReplacesDataUnasked) {
   const Words coverage = {"coverage", "fit.toml", "--datasets", "1", "--replicates", "19", "--out"};
   for (const Words& words :
        std::vector<Words>{plan,
-                          with(pair_words, {"--like", "data", "--into", "data"}),
+                          with(pair_words, with(into_a_dataset, {"data"})),
                           with(pair_words, {"--out", "data/points.csv"}),
                           with(pair_words, {"--impacts", "data/points.csv"}),
                           with(coverage, {"data/points.csv"}),
@@ -138,7 +137,7 @@ TEST(Safety, TwoCommandsNeverWorkOnOneResult) {
   for (const auto& [mark, words] : std::vector<std::pair<std::string, Words>>{
            {"points.csv", {"init", "out", "--like", "data", "--diameter", "5"}},
            {"points.csv", import},
-           {"points.csv", with(pair_words, {"--into", "out", "--like", "data"})},
+           {"points.csv", with(pair_words, with(into_a_dataset, {"out"}))},
            {"fit.json", {"fit", "fit.toml", "--replicates", "0", "--out", "out"}},
            {"diagnosis.json", {"diagnose", "fit.toml", "--out", "out"}},
            {"c.md", {"coverage", "fit.toml", "--datasets", "1", "--out", "out/c.md"}},

@@ -14,7 +14,7 @@ from . import _recoil
 from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, path_of, takes_options
+from ._options import flag_of, given, path_of, takes_options, text_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -92,9 +92,9 @@ class _WithPictures(_Result):
         return self._pictures.titles()
 
     def svg(self, name: str) -> str:
-        """The picture ``name`` as SVG. Raises ``ValueError`` if there is none."""
-        if name not in self.pictures:
-            raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
+        """The picture ``name`` as SVG. Raises ``InputError`` if there is none."""
+        if text_of("name", name) not in self.pictures:
+            refuse(f"there is no picture {name!r}", f"choose one of {', '.join(self.pictures)}")
         return self._pictures.svg(name)
 
 
@@ -109,7 +109,7 @@ class _Reported(_WithPictures):
 
     def report(self, verbose: bool = False) -> str:
         """The text that the command prints; ``verbose``: with ``--verbose``."""
-        return str(self._compiled.text(True)) if verbose else self._text
+        return str(self._compiled.text(True)) if flag_of("verbose", verbose) else self._text
 
     def _repr_html_(self) -> str:
         if "_compiled" not in self.__dict__:
@@ -274,7 +274,7 @@ class FitResult(_Reported):
         Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
         """
         path = Path(path_of("folder", folder)) / "fit.json"
-        _recoil.write_whole_files([(path, self._json)], bool(replace))
+        _recoil.write_whole_files([(path, self._json)], flag_of("replace", replace))
         return path
 
     def save_page(self, file: PathLike, *, replace: bool = False) -> None:
@@ -283,7 +283,8 @@ class FitResult(_Reported):
         Raises ``InputError`` for a file that this process has read, a points.csv or a
         datapackage.json, unless ``replace`` is true.
         """
-        _recoil.write_whole_files([(Path(path_of("file", file)), self._compiled.page())], bool(replace))
+        path, replace = Path(path_of("file", file)), flag_of("replace", replace)
+        _recoil.write_whole_files([(path, self._compiled.page())], replace)
 
     def plot(self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = "") -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
@@ -463,7 +464,7 @@ class Diagnosis(_Reported):
         path = Path(path_of("folder", folder)) / "diagnosis.json"
         extended = self._compiled.extended_toml(os.fspath(path.parent))
         _recoil.write_whole_files(
-            [(path.with_name("extended.toml"), extended), (path, self._json)], bool(replace))
+            [(path.with_name("extended.toml"), extended), (path, self._json)], flag_of("replace", replace))
         return path
 
     def __repr__(self) -> str:
@@ -522,9 +523,10 @@ class Pairing(_Result):
         Raises ``InputError`` if the file exists, unless ``replace`` is true.
         """
         path = Path(path_of("file", file))
+        replace = flag_of("replace", replace)
         if not replace:
             refuse_to_replace(path)
-        _recoil.write_whole_files([(path, self._points)], bool(replace))
+        _recoil.write_whole_files([(path, self._points)], replace)
         return path
 
     def __repr__(self) -> str:
