@@ -196,6 +196,88 @@ TEST(Safety, ForgedHeadsOfPartsAreRefused) {
   expect_refusal(place.run({"merge", "parts"}), "");
 }
 
+/// A part whose rows somebody has replaced, with the right checksum.
+TEST(Safety, RowsOfAnotherKindAreAMistakeOfTheUser) {
+  const Workplace place;
+  ASSERT_EQ(place
+                .run({"coverage", "fit.toml", "--datasets", "1", "--replicates", "19", "--shard",
+                      "1/1", "--out", "parts"})
+                .status,
+            0);
+  fs::path part;
+  for (const auto& entry : fs::directory_iterator(place / "parts")) part = entry.path();
+  const std::string text = support::text_of(part);
+  using Json = nlohmann::ordered_json;
+  for (const std::string row :
+       {"null", "7", "[]", "\"x\"", R"({"usable": 3})", R"({"usable": true})",
+        R"({"usable": true, "parameters": [{"cells": []}], "capture": []})"}) {
+    const std::string rows = "[0," + row + "]\n";
+    Json head = Json::parse(text.substr(0, text.find('\n')));
+    head["bytes"] = rows.size();
+    head.erase("sha256");
+    place.write("bytes", head.dump() + "\n" + rows);
+    head["sha256"] = run_command({"sha256sum", "bytes"}, place.path()).out.substr(0, 64);
+    support::write_text(part, head.dump() + "\n" + rows);
+    expect_refusal(place.run({"merge", "parts", "--threads", "1"}), "");
+  }
+  // one whose first line never ends
+  support::write_text(part, text);
+  support::write_text(place / "parts/part-9-of-9-x.jsonl", "");
+  fs::resize_file(place / "parts/part-9-of-9-x.jsonl", 50ULL << 30U);  // sparse
+  EXPECT_EQ(run_after(place, "ulimit -v 4000000", {"merge", "parts", "--threads", "1"}).status, 0);
+}
+
+/// JSON that is nested a hundred thousand times, wherever a command reads JSON.
+TEST(Safety, DeepJsonIsRefused) {
+  const Workplace place;
+  ASSERT_EQ(
+      place.run({"fit", "fit.toml", "--replicates", "0", "--threads", "1", "--out", "o"}).status,
+      0);
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  place.write("deep.json",
+              support::changed(place.read("o/fit.json"), "{", "{\"new\":" + deep + ","));
+  place.write("ball.json", R"({"material": "x", "density": )" + deep + "}");
+  for (const Words& words : std::vector<Words>{
+           {"compare", "o/fit.json", "deep.json"},
+           {"simulate", "fit.toml", "--velocity", "3", "--diameter", "4", "--parameters",
+            "deep.json"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "e", "--parameters", "deep.json"},
+           {"plan", "fit.toml", "--parameters", "deep.json"},
+           {"init", "n", "--particle", "ball.json", "--surface", "steel", "--diameter", "5"}}) {
+    expect_refusal(place.run(words), ".json");
+  }
+}
+
+/// A limit of the size of files is an error like a full disk: what was there stays, and nothing is
+/// left beside it.
+TEST(Safety, ALimitOfTheSizeOfFilesIsAnError) {
+  const Workplace place;
+  const Words fit = {"fit", "fit.toml", "--replicates", "0", "--threads", "1", "--out", "o"};
+  ASSERT_EQ(place.run(fit).status, 0);
+  const std::string before = place.read("o/fit.json");
+  const auto listing = place.listing();
+  expect_refusal(run_after(place, "ulimit -f 1", fit), "fit.json");
+  EXPECT_EQ(place.read("o/fit.json"), before);
+  EXPECT_EQ(place.listing(), listing);
+}
+
+/// A mistake in the second fit file is found before the page of the first is made.
+TEST(Safety, AReportReadsAllFitFilesFirst) {
+  const Workplace place;
+  place.write("wrong.toml", "dataset = \"nowhere\"\n");
+  const auto listing = place.listing();
+  expect_refusal(place.run({"report", "fit.toml", "wrong.toml", "--out", "pages"}), "wrong.toml");
+  EXPECT_EQ(place.listing(), listing);
+}
+
+TEST(Safety, ASmallStackIsEnough) {
+  const Workplace place;
+  EXPECT_EQ(
+      run_after(place, "ulimit -s 256", {"fit", "fit.toml", "--replicates", "19", "--threads", "2"})
+          .status,
+      0);
+}
+
 TEST(Safety, AStandardStreamThatIsClosedOrFullChangesNoStatus) {
   const Workplace place;
   for (const char* redirect : {"exec 2>/dev/full", "exec 2>&-", "exec 0<&- 2>&-"}) {

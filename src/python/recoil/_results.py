@@ -294,10 +294,12 @@ class FitResult(_Reported):
         rise of chi-square along ``parameter`` (the first free one by default) with the others
         refitted, and the rise at which the interval ends.
         """
+        if ax is not None and not hasattr(ax, "errorbar"):
+            refuse(f"ax is {type(ax).__name__}", "give axes of matplotlib")
         known = ("fit", "residuals", "profile")
-        if what not in known:
+        if text_of("what", what) not in known:
             refuse(f"what is {what!r}", f"choose one of {', '.join(known)}")
-        if parameter and what != "profile":
+        if text_of("parameter", parameter) and what != "profile":
             refuse(f"parameter is given, and what is {what!r}", 'give what="profile"')
         if ax is None:
             import matplotlib.pyplot as plt
