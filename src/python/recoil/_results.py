@@ -14,7 +14,7 @@ from . import _recoil
 from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, takes_options
+from ._options import flag_of, given, path_of, takes_options, text_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -92,9 +92,9 @@ class _WithPictures(_Result):
         return self._pictures.titles()
 
     def svg(self, name: str) -> str:
-        """The picture ``name`` as SVG. Raises ``ValueError`` if there is none."""
-        if name not in self.pictures:
-            raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
+        """The picture ``name`` as SVG. Raises ``InputError`` if there is none."""
+        if text_of("name", name) not in self.pictures:
+            refuse(f"there is no picture {name!r}", f"choose one of {', '.join(self.pictures)}")
         return self._pictures.svg(name)
 
 
@@ -109,7 +109,7 @@ class _Reported(_WithPictures):
 
     def report(self, verbose: bool = False) -> str:
         """The text that the command prints; ``verbose``: with ``--verbose``."""
-        return str(self._compiled.text(True)) if verbose else self._text
+        return str(self._compiled.text(True)) if flag_of("verbose", verbose) else self._text
 
     def _repr_html_(self) -> str:
         if "_compiled" not in self.__dict__:
@@ -234,7 +234,7 @@ class FitResult(_Reported):
 
         ``sizes``: a CSV file with the columns diameter and count.
         """
-        return Prediction(self._compiled.predict(os.fspath(sizes), given("predict", locals())))
+        return Prediction(self._compiled.predict(path_of("sizes", sizes), given("predict", locals())))
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, ends of the recommended interval and
@@ -279,15 +279,23 @@ class FitResult(_Reported):
                 "restitution": numpy.array(pointwise).T.reshape(*shape, len(pointwise))}
         return found
 
-    def save(self, folder: PathLike) -> Path:
-        """Writes ``folder``/fit.json, and returns its path."""
-        path = Path(folder) / "fit.json"
-        _recoil.write_whole_files([(path, self._json)])
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
+        """Writes ``folder``/fit.json, and returns its path.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "fit.json"
+        _recoil.write_whole_files([(path, self._json)], flag_of("replace", replace))
         return path
 
-    def save_page(self, file: PathLike) -> None:
-        """Writes the page of ``recoil report``: one HTML file that contains its pictures."""
-        _recoil.write_whole_files([(Path(file), self._compiled.page())])
+    def save_page(self, file: PathLike, *, replace: bool = False) -> None:
+        """Writes the page of ``recoil report``: one HTML file that contains its pictures.
+
+        Raises ``InputError`` for a file that this process has read, a points.csv or a
+        datapackage.json, unless ``replace`` is true.
+        """
+        path, replace = Path(path_of("file", file)), flag_of("replace", replace)
+        _recoil.write_whole_files([(path, self._compiled.page())], replace)
 
     def plot(self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = "") -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
@@ -297,10 +305,12 @@ class FitResult(_Reported):
         rise of chi-square along ``parameter`` (the first free one by default) with the others
         refitted, and the rise at which the interval ends.
         """
+        if ax is not None and not hasattr(ax, "errorbar"):
+            refuse(f"ax is {type(ax).__name__}", "give axes of matplotlib")
         known = ("fit", "residuals", "profile")
-        if what not in known:
+        if text_of("what", what) not in known:
             refuse(f"what is {what!r}", f"choose one of {', '.join(known)}")
-        if parameter and what != "profile":
+        if text_of("parameter", parameter) and what != "profile":
             refuse(f"parameter is given, and what is {what!r}", 'give what="profile"')
         if ax is None:
             import matplotlib.pyplot as plt
@@ -504,12 +514,16 @@ class Diagnosis(_Reported):
         return _next(self._text, "result.save(folder) writes the extended model as a fit file; "
                                  "all details: result.report(verbose=True)")
 
-    def save(self, folder: PathLike) -> Path:
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
-        ``folder``, and returns the path of the first."""
-        path = Path(folder) / "diagnosis.json"
-        extended = self._compiled.extended_toml(os.fspath(folder))
-        _recoil.write_whole_files([(path.with_name("extended.toml"), extended), (path, self._json)])
+        ``folder``, and returns the path of the first.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "diagnosis.json"
+        extended = self._compiled.extended_toml(os.fspath(path.parent))
+        _recoil.write_whole_files(
+            [(path.with_name("extended.toml"), extended), (path, self._json)], flag_of("replace", replace))
         return path
 
     def __repr__(self) -> str:
@@ -567,10 +581,11 @@ class Pairing(_Result):
 
         Raises ``InputError`` if the file exists, unless ``replace`` is true.
         """
-        path = Path(file)
+        path = Path(path_of("file", file))
+        replace = flag_of("replace", replace)
         if not replace:
             refuse_to_replace(path)
-        _recoil.write_whole_files([(path, self._points)])
+        _recoil.write_whole_files([(path, self._points)], replace)
         return path
 
     def __repr__(self) -> str:
