@@ -95,6 +95,12 @@ std::string warning_sentence(const DatasetWarning& warning) {
     case PointRemark::repeated:
       return points_with("the same series, diameter, velocity and restitution as an earlier one",
                          "kept; a point copied by accident counts twice");
+    case PointRemark::error_above_velocity:
+      return points_with("a standard deviation of the velocity above the velocity itself",
+                         "kept; check the two units");
+    case PointRemark::tiny_restitution:
+      return points_with("a restitution of 0.02 or less, and none above it",
+                         "kept; check whether e is in per cent or a velocity in another unit");
     case PointRemark::other_bytes:
       return "the file of the points has another size or hash than datapackage.json states: it was "
              "changed since; correct 'bytes' and 'hash' there, or remove them";
@@ -176,6 +182,8 @@ std::string note_sentence(const ImportNote& note) {
                             : fmt::format("the sheet {} was read; --sheet NAME reads another: {}",
                                           read, listed(others));
     }
+    case decimal_commas:
+      return "the numbers have decimal commas";
     case lines_skipped:
       return fmt::format("skipped as a comment or title: {}", names);
     case rows_left_out:
