@@ -106,7 +106,7 @@ const std::vector<OptionRow>& option_rows() {
 
       // datasets
       {"init", "--points", path("FILE"),
-       "the points (CSV) with incident_velocity, restitution and any other column of a dataset "
+       "the points (a table) with a header such as V [m/s],e or the columns of a dataset "
        "(default: example points)"},
       {"init", "--provenance", one_of({"measured", "digitised"}), "where these points come from",
        "measured"},
