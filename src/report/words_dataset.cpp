@@ -60,7 +60,11 @@ std::vector<Block> data_banners(const std::vector<Dataset>& datasets) {
   }
   for (const Dataset& dataset : datasets) {
     for (const DatasetWarning& warning : dataset.warnings) {
-      if (warning.remark != PointRemark::unmarked_zero) continue;
+      using enum PointRemark;
+      const bool changes_results = warning.remark == unmarked_zero ||
+                                   warning.remark == error_above_velocity ||
+                                   warning.remark == tiny_restitution;
+      if (!changes_results) continue;
       banners.emplace_back(Paragraph{as_sentence(Sentence(warning_sentence(warning)))});
     }
     const std::string oblique = normal_component_words(dataset);
