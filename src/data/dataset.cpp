@@ -53,6 +53,7 @@ class PointReader {
     }
     refuse_impossible_sd();
     remark_repeated();
+    remark_tiny();
     name_series();
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
@@ -382,11 +383,28 @@ class PointReader {
     if (point.diameter > limits::unusual_diameter && !balls) {
       add(PointRemark::unusual_diameter, point.line);
     }
+    const auto above_velocity = [&](const std::optional<double>& sd) {
+      return sd.value_or(0.0) > point.incident_velocity;
+    };
+    if (above_velocity(point.velocity_sd) || above_velocity(point.setting_velocity_sd)) {
+      add(PointRemark::error_above_velocity, point.line);
+    }
     if (point.incidence_angle > (1.0 + 1e-12) * limits::usual_incidence_angle) {
       add(PointRemark::oblique, point.line);
       double& largest = warnings_[PointRemark::oblique].largest;
       largest = std::max(largest, point.incidence_angle);
     }
+  }
+
+  /// Values of e that are all tiny are in per cent, or velocities in different units.
+  void remark_tiny() {
+    constexpr double tiny = 0.02;
+    std::vector<int> lines;
+    for (const ImpactPoint& point : dataset_.points) {
+      if (point.restitution > tiny) return;
+      if (point.restitution > 0.0) lines.push_back(point.line);
+    }
+    for (const int line : lines) add(PointRemark::tiny_restitution, line);
   }
 
   /// Repeated drops with one setting may give the same reading; others are remarked.

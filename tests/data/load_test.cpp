@@ -333,6 +333,24 @@ TEST(LoadDataset, WarnsOncePerPeculiarity) {
   expect(3, PointRemark::repeated, 1, 5);
 }
 
+TEST(LoadDataset, WarnsOfUnitsThatContradictEachOther) {
+  const std::string header =
+      "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
+  const auto warnings = [&](const std::string& rows) {
+    return load_dataset(DatasetFolder(example::package, header + rows).path()).warnings;
+  };
+  // Errors in mm/s beside velocities in m/s; e in per cent that is called a ratio of per cent.
+  const auto errors = warnings("a,5,0.1,0.5,,3,,\na,5,2,0.6,,0.2,,\n");
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].remark, PointRemark::error_above_velocity);
+  EXPECT_EQ(errors[0].count, 1U);
+  const auto tiny = warnings("a,5,1,0.005,,,,\na,5,2,0.007,,,,\na,5,0.1,,,,3,3\n");
+  ASSERT_EQ(tiny.size(), 1U);
+  EXPECT_EQ(tiny[0].remark, PointRemark::tiny_restitution);
+  EXPECT_EQ(tiny[0].count, 2U);
+  EXPECT_TRUE(warnings("a,5,1,0.005,,,,\na,5,2,0.6,,0.2,,\n").empty());
+}
+
 TEST(LoadDataset, ARestitutionOfZeroIsACapture) {
   const std::string header =
       "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
