@@ -103,7 +103,8 @@ enum class ImportRemark {
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
   axis_points_down,        ///< tracks: heights are measured downward
   track_fall,              ///< tracks: `fall` differs from `gravity`
-  drag_stays,              ///< tracks: air drag is not corrected
+  frames_repeated,         ///< tracks: `count` frames show the one before again
+  frames_mended,           ///< tracks: `count` rows are not one frame after the row before
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,

@@ -103,7 +103,7 @@ Provenance provenance_for(const ImportRequest& request,
 /// Writes the stated conditions. Flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
-      request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
+      request.format != ImportFormat::webplotdigitizer && request.format != ImportFormat::csv;
   const auto put_if_missing = [&](const char* key, double otherwise) {
     if (system.contains("conditions") && system["conditions"].contains(key)) return;
     system["conditions"][key] = otherwise;
@@ -163,9 +163,9 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           source_name(request), request.gravity, air_words(air));
     case ImportFormat::track:
       return fmt::format(
-          "Tracks of falling spheres, imported from {}: e and V where the parabolas before and "
-          "after an impact meet{}.",
-          source_name(request),
+          "Tracks of falling spheres, imported from {}: e and V where the flights before and after "
+          "an impact meet, {}{}.",
+          source_name(request), air_words(air),
           request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
     case ImportFormat::csv:
       break;

@@ -252,13 +252,18 @@ std::string note_sentence(const ImportNote& note) {
     case track_fall:
       return fmt::format(
           "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is "
-          "wrong, or air drag is large; e does not depend on the scale, V does",
+          "wrong; e does not depend on the scale, V does",
           note.fall, note.gravity);
     case axis_points_down:
       return "the heights are taken as measured downward: only so are the flights parabolas of a "
              "fall";
-    case drag_stays:
-      return "the effect of air drag on the tracks was not removed";
+    case frames_repeated:
+      return counted(note.count, "frame") +
+             " left out: the film repeats frames, so that the ball stands still in flight";
+    case frames_mended:
+      return "the rows count as frames; " + counted(note.count, "frame") +
+             " that the film lost or shows twice, as steps of double or no length tell, were "
+             "allowed for";
     case shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";
