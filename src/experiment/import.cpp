@@ -139,7 +139,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
     case ImportFormat::intervals:
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
-      return read_track(request);
+      return read_track(request, sphere_in_air(system));
     case ImportFormat::rest:
       return read_rest(request, sphere_in_air(system));
     case ImportFormat::tops:

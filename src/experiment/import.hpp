@@ -83,6 +83,7 @@ enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
   sheet_read,            ///< `names`: the sheet of a workbook, and those that were not read
   columns_known,         ///< `names`: "time = t [s]": columns of a program that names them so
+  decimal_commas,        ///< the numbers have decimal commas, though none was stated
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a needed cell is empty
   signed_velocities,     ///< velocities were signed; their magnitudes were taken
@@ -107,7 +108,8 @@ enum class ImportRemark {
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
   axis_points_down,        ///< tracks: heights are measured downward
   track_fall,              ///< tracks: `fall` differs from `gravity`
-  drag_stays,              ///< tracks: air drag is not corrected
+  frames_repeated,         ///< tracks: `count` frames show the one before again
+  frames_mended,           ///< tracks: `count` rows are not one frame after the row before
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,

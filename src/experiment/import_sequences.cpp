@@ -47,8 +47,7 @@ class Bouncing {
     return time;
   }
 
-  bool in_air() const { return air_.has_value(); }
-  double reynolds(double speed) const { return air_ ? air_->reynolds(speed) : 0.0; }
+  const std::optional<AirFlight>& air() const { return air_; }
 
  private:
   /// The duration of a flight, and the speed after the impact at its end instead of `speed`.
@@ -74,52 +73,31 @@ class Sequences {
   /// @param measured the quantity at whose cell an impossible e is reported
   Sequences(const ImportRequest& request, const SphereInAir& sphere, const ImportTable& table,
             std::string measured)
-      : request_(request), sphere_(sphere), table_(table), measured_(std::move(measured)) {
-    share_.pressure = sphere.air.pressure;
-    share_.temperature = sphere.air.temperature;
-  }
+      : request_(request),
+        flights_(request, sphere),
+        table_(table),
+        measured_(std::move(measured)) {}
 
   Bouncing in_vacuum() const { return {std::nullopt, request_.gravity}; }
   /// In air, unless there is none or its effect cannot be computed.
   Bouncing bouncing(std::size_t row) const {
-    return {
-        flight_in_air(request_, sphere_, table_.name(row, "series"), table_.value(row, "diameter")),
-        request_.gravity};
+    return {flights_.in_air(table_.name(row, "series"), table_.value(row, "diameter")),
+            request_.gravity};
   }
 
   /// @param in_vacuum e if the drag of air is neglected
   ImportedPoint& add(std::size_t row, const Bouncing& bouncing, double velocity, double e,
                      double in_vacuum) {
-    constexpr double largest = limits::restitution.upper;
-    if (!(e > 0.0 && e <= largest)) fail(row, in_vacuum, in_vacuum <= largest);
-    if (bouncing.in_air()) {
-      const double share = 1.0 - in_vacuum / e;
-      if (!any_ || velocity < share_.slow) {
-        std::tie(share_.slow, share_.slow_share) = std::pair(velocity, share);
-      }
-      if (!any_ || velocity > share_.fast) {
-        std::tie(share_.fast, share_.fast_share) = std::pair(velocity, share);
-      }
-      share_.reynolds = std::max(share_.reynolds, bouncing.reynolds(velocity));
-      any_ = true;
-    }
+    if (!(in_vacuum > 0.0 && in_vacuum <= limits::restitution.upper)) fail(row, in_vacuum);
+    const auto& air = bouncing.air();
+    if (air) flights_.note_drag(table_, row, measured_, *air, velocity, e, in_vacuum);
     out_.points.push_back(imported_point(table_.name(row, "series"), table_.line(row),
                                          table_.value(row, "diameter"), velocity, e));
     return out_.points.back();
   }
 
-  [[noreturn]] void fail(std::size_t row, double in_vacuum, bool by_air = false) const {
-    if (by_air) {
-      table_.fail(row, measured_,
-                  fmt::format("restitution = {:.3g} without air, and above {:g} when the drag of "
-                              "air at {:g} Pa is taken out",
-                              in_vacuum, limits::restitution.upper, sphere_.air.pressure),
-                  "air would have stopped a sphere of this size and density earlier",
-                  "check the units in --map, --diameter and the density, or write "
-                  "--ambient-pressure 0 for vacuum");
-    }
-    table_.fail(row, measured_, fmt::format("restitution = {:.3g}", in_vacuum),
-                "an impact gives no energy, and no row of a launch is left out",
+  [[noreturn]] void fail(std::size_t row, double e) const {
+    table_.fail(row, measured_, fmt::format("restitution = {:.3g}", e), "it is between 0 and 1",
                 "check the units in --map, or leave the cell empty where a value was not recorded");
   }
 
@@ -132,23 +110,15 @@ class Sequences {
                        "state with --map launch=COLUMN which rows belong together");
     }
     for (const ImportRemark remark : remarks) out_.notes.push_back({remark});
-    if (any_) {
-      ImportNote note{ImportRemark::air_drag};
-      note.air = share_;
-      out_.notes.push_back(note);
-      note.remark = ImportRemark::turbulent_air;
-      if (share_.reynolds > drag_law_reynolds) out_.notes.push_back(note);
-    }
+    flights_.add_notes(out_.notes);
     return out_;
   }
 
  private:
   const ImportRequest& request_;
-  const SphereInAir& sphere_;
+  Flights flights_;
   const ImportTable& table_;
   std::string measured_;
-  AirShare share_;
-  bool any_ = false;
   ImportedPoints out_;
 };
 
@@ -214,7 +184,7 @@ ImportedPoints read_rest(const ImportRequest& request, const SphereInAir& sphere
     const AirFlight::Part down = bouncing.fall(height);
     const double e = solved(
         [&](double at) { return down.time + bouncing.time_to_rest(at * down.speed, at) - total; },
-        in_vacuum, most_for_rest, bouncing.in_air());
+        in_vacuum, most_for_rest, bouncing.air().has_value());
     ImportedPoint& point = sequences.add(r, bouncing, down.speed, e, in_vacuum);
     const double height_sd = table.value(r, "drop_height_sd").value_or(drop.of(height));
     const double total_sd = table.value(r, "rest_time_sd").value_or(time.of(total));
@@ -293,7 +263,8 @@ ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphe
       constexpr double least = 1e-3;
       const double most = limits::restitution.upper;
       if (!(log_ratio(least) < std::log(ratio) && log_ratio(most) > std::log(ratio))) {
-        sequences.fail(row, std::pow(ratio * n[0] / n[1], 2.0 / (n[0] + n[1])));
+        const double about = std::pow(ratio * n[0] / n[1], 2.0 / (n[0] + n[1]));
+        sequences.fail(row, about);
       }
       const double in_vacuum =
           find_root([&](double e) { return log_ratio(e) - std::log(ratio); }, least, most);
@@ -301,7 +272,7 @@ ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphe
       // The launch that makes the first block take its time.
       const auto launch = [&](double e) {
         const double start = 0.5 * request.gravity * t[0] / length(e, 0);
-        if (!bouncing.in_air()) return start;
+        if (!bouncing.air().has_value()) return start;
         const auto excess = [&](double u) { return bouncing.time_of(n[0], u, e) - t[0]; };
         double high = 1.5 * start;
         while (excess(high) < 0.0 && high < 1e3 * start) high *= 1.5;
@@ -313,10 +284,9 @@ ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphe
             bouncing.time_of(n[0], speed, at);
             return bouncing.time_of(n[1], speed, at) - t[1];
           },
-          in_vacuum, most, bouncing.in_air());
+          in_vacuum, most, bouncing.air().has_value());
       // V of the impact between the blocks, at which the e of the impacts around it are weighed.
-      if (!std::isfinite(e)) sequences.fail(row, in_vacuum, true);
-      double after = launch(e);
+      double after = std::isfinite(e) ? launch(e) : 0.0;
       bouncing.time_of(n[0], after, e);
       ImportedPoint& point = sequences.add(row, bouncing, after / e, e, in_vacuum);
       if (!error.stated()) continue;

@@ -107,7 +107,7 @@ const std::vector<OptionRow>& option_rows() {
 
       // datasets
       {"init", "--points", path("FILE"),
-       "the points (CSV) with incident_velocity, restitution and any other column of a dataset "
+       "the points (a table) with a header such as V [m/s],e or the columns of a dataset "
        "(default: example points)"},
       {"init", "--provenance", one_of({"measured", "digitised"}), "where these points come from",
        "measured"},
@@ -180,6 +180,9 @@ const std::vector<OptionRow>& option_rows() {
       {"pair", "--column", assignments("FIELD=NAME"),
        "names of columns, for files with other names than the fields, e.g. velocity=LDA1", "",
        "pair", "columns"},
+      {"pair", "--decimal-comma", nothing(),
+       "the decimal mark is a comma (2,5), where recoil does not recognise it", "", "pair",
+       "decimal_comma"},
       {"pair", "--positive", one_of({"towards", "away"}),
        "the direction in which velocities are positive: towards the surface or away from it",
        "towards", "pair", "positive"},
