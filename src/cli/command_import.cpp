@@ -60,6 +60,7 @@ ImportRequest request_of(const GivenOptions& given) {
   r.replace = given.has("--replace");
   r.map = given.texts("--map");
   r.decimal_comma = given.has("--decimal-comma");
+  r.transpose = given.has("--transpose");
   r.sd_of = given.text("--sd-of");
   r.diameters = given.texts("--diameter");
   r.diameter_error = given.text("--diameter-error");

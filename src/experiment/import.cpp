@@ -155,6 +155,50 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
   }
 }
 
+/// Refuses points of which more than half return faster than they came, and leaves out single
+/// impossible impacts of flights.
+void require_possible(const ImportRequest& request, ImportedPoints& imported) {
+  constexpr double most = limits::restitution.upper;
+  std::vector<const ImportedPoint*> above;
+  std::size_t impossible = 0;
+  for (const ImportedPoint& point : imported.points) {
+    const double e = point.restitution().value_or(0.0);
+    if (e > 1.0) above.push_back(&point);
+    if (e > most) ++impossible;
+  }
+  const bool flights = request.format == ImportFormat::heights ||
+                       request.format == ImportFormat::intervals ||
+                       request.format == ImportFormat::track;
+  if (!flights && impossible > 0) return;  // refused with its unit later
+  if (above.size() > 1 && 2 * above.size() > imported.points.size()) {
+    std::string how = "check the columns in --map, their units and the axes";
+    if (request.format == ImportFormat::heights) {
+      how = "exchange drop_height and rebound_height in --map, or check their units";
+    } else if (request.format == ImportFormat::intervals) {
+      how =
+          "state with --map launch=COLUMN which rows belong together; --transpose reads launches "
+          "that are in columns";
+    } else if (request.format == ImportFormat::track) {
+      how =
+          "check the times (a film that shows pictures twice has too many) and leave out what was "
+          "held";
+    }
+    throw InputError({request.file.string(), above.front()->line, 1},
+                     fmt::format("restitution is above 1 in {} of {} points", above.size(),
+                                 imported.points.size()),
+                     "a ball returns no faster than it came, apart from errors", how);
+  }
+  if (impossible == 0) return;
+  ImportNote note{ImportRemark::impossible_left_out};
+  std::erase_if(imported.points, [&](const ImportedPoint& point) {
+    const double e = point.restitution().value_or(0.0);
+    if (e <= most) return false;
+    note.names.push_back(fmt::format("line {} (e = {:.3g})", point.line, e));
+    return true;
+  });
+  imported.notes.push_back(note);
+}
+
 /// Throws `error`, which is about the dataset to be written, with the line of the imported file
 /// instead.
 [[noreturn]] void fail_in_source(const InputError& error, const ImportRequest& request,
@@ -258,6 +302,7 @@ ImportResult import_points(const ImportRequest& asked) {
   ImportedPoints imported = read_points_of(request, system, units);
   resolve_diameters(request, imported);
   add_scatter(request, imported.points);
+  require_possible(request, imported);
 
   notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());
   result.notes.insert(result.notes.begin(), notes.begin(), notes.end());

@@ -41,6 +41,7 @@ struct ImportRequest {
 
   std::vector<std::string> map;  ///< "quantity=column:unit"
   bool decimal_comma = false;    ///< numbers are written 2,5
+  bool transpose = false;        ///< exchange the rows and columns of the file
   std::string sd_of;  ///< restitution_sd is of "one" impact, of the "mean", or "": unknown
   std::vector<std::string> diameters;  ///< "4.9um" for all, "SERIES=4.9um" for one
   std::string diameter_error;
@@ -91,6 +92,7 @@ enum class ImportRemark {
   same_point,              ///< heights: both have to refer to the same point of the ball
   air_drag,                ///< `air`: the effect of air drag on e
   turbulent_air,           ///< `air`: faster than the range of the drag law
+  impossible_left_out,     ///< `names`: single impacts with an e above the limit
   bounces_missing,         ///< `count` pairs of intervals left out
   release_heights,         ///< `releases`: a check of them
   first_bounces_missed,    ///< `names`: launches whose first bounces are not in the file

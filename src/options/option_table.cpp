@@ -153,6 +153,7 @@ const std::vector<OptionRow>& option_rows() {
       {"import", "--rebound-error", text("ERROR"), "one standard deviation of the rebound height"},
       {"import", "--time-error", text("ERROR"),
        "one standard deviation of the time of one bounce: 1ms"},
+      {"import", "--transpose", nothing(), "exchange the rows and columns of the file"},
       {"import", "--average", nothing(), "make one point of all drops from the same height"},
       {"import", "--gravity", quantity(Dimension::acceleration, "m/s2", 1e-3, 1e3), "gravity",
        "9.80665"},

@@ -242,11 +242,14 @@ std::string note_sentence(const ImportNote& note) {
     case axis_points_down:
       return "the heights are taken as measured downward: only so are the flights parabolas of a "
              "fall";
+    case impossible_left_out:
+      return fmt::format("impacts with e above {:g} were left out, look there: {}",
+                         limits::restitution.upper, fmt::join(note.names, ", "));
     case drag_stays:
       return "the effect of air drag on the tracks was not removed";
     case shared_bounces:
-      return "successive points of one launch share a flight; a fit takes their errors as "
-             "independent";
+      return "successive points of one launch share a flight; without --time-error a fit takes "
+             "their errors as independent";
     case no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
     case licence_removed:
