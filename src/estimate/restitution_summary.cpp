@@ -302,6 +302,9 @@ class Line {
     dof_ = static_cast<int>(n - columns_);
     solve(readings, X, y, 0.0);
     if (!solvable_) return;
+    if (stated_ && dof_ > 0) {
+      stated_scatter_ = {std::sqrt(square() / dof_), gsl_cdf_chisq_Q(square(), dof_)};
+    }
     const bool shared = std::ranges::any_of(
         readings, [](const Reading& r) { return r.linked.launch != Observation::no_launch; });
     // An independent error beside those of shared instants.
@@ -326,6 +329,7 @@ class Line {
   double square() const { return rest_.squaredNorm(); }
   double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
   Eigen::Index columns() const { return columns_; }
+  const std::optional<LineScatter>& stated_scatter() const { return stated_scatter_; }
   /// Is an error known, stated or from the scatter?
   bool has_errors() const { return solvable_ && (stated_ || scatters_); }
   std::string missing() const {
@@ -438,6 +442,7 @@ class Line {
   Eigen::Index columns_ = 0;
   int dof_ = 0;
   double variance_ = 0.0;
+  std::optional<LineScatter> stated_scatter_;
   Eigen::VectorXd coefficients_, rest_;
   Eigen::MatrixXd inverse_;
   std::vector<Eigen::VectorXd> scores_;  ///< sums of X' rest over launches
@@ -626,6 +631,7 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
   const bool scattered = of_launches.empty() && places_scatter(readings, Line(readings, series));
   const std::vector<Reading> used = scattered ? means_of_places(readings) : readings;
   const Line line(used, series);
+  summary.scatter = scattered ? Line(readings, series).stated_scatter() : line.stated_scatter();
   const auto s = static_cast<Eigen::Index>(series);
   const auto assess = [&](const Eigen::VectorXd& contrast, const Eigen::MatrixXd& all,
                           TestedEffect& effect) {

@@ -64,6 +64,12 @@ struct TestedEffect {
   std::string why = {};  ///< the reason for a missing value
 };
 
+/// The scatter of points about the line of `RestitutionSummary::velocity`.
+struct LineScatter {
+  double ratio = 1.0;    ///< to the stated errors [1]
+  double p_value = 1.0;  ///< of no more scatter than stated (chi-square)
+};
+
 /// A summary of e without a model of the impact.
 ///
 /// - Diameters within a factor of 1.2 are one size.
@@ -103,6 +109,7 @@ struct RestitutionSummary {
   std::size_t without_error = 0;  ///< those of them that state no error, if others state one
   bool several_series = false;
   std::optional<OutlyingBatch> outlier;
+  std::optional<LineScatter> scatter;  ///< nullopt: points state no errors, or too few points
 };
 
 /// @param adhesion does the model have adhesion?

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/files.hpp"
 #include "data/contact.hpp"
@@ -285,7 +286,52 @@ bool adhesion_is_negligible(const ImportRequest& request, const Json& system,
   });
 }
 
+/// The point of the summary. @param series index
+ImpactPoint summarised(const ImportedPoint& imported, std::size_t series) {
+  ImpactPoint point;
+  point.series = series;
+  point.diameter = imported.value[Quantity::diameter].value_or(0.0);
+  point.incident_velocity = imported.value[Quantity::incident_velocity].value_or(0.0);
+  point.restitution = imported.restitution().value_or(0.0);
+  point.restitution_sd = imported.value[Quantity::restitution_sd];
+  point.velocity_sd = imported.value[Quantity::velocity_sd];
+  point.setting_velocity_sd = imported.value[Quantity::setting_velocity_sd];
+  point.events = static_cast<int>(imported.value[Quantity::events].value_or(1.0));
+  point.captured = static_cast<int>(imported.value[Quantity::captured].value_or(0.0));
+  point.setting = imported.setting;
+  point.launch = imported.launch;
+  point.line = imported.line;
+  return point;
+}
+
 }  // namespace
+
+ImportResult read_bounces(const ImportRequest& asked, double density) {
+  ImportRequest request = asked;
+  request.particle = fmt::format("material=ball,density={:.17g}", density);
+  request.surface = "material=floor";
+  ImportResult result;
+  if (!request.text) request.text = table_text(request, result.notes);
+  std::vector<ImportNote> of_package;  // there is no package
+  const Json system = imported_system(request, std::nullopt, of_package);
+  ImportedPoints imported = read_points_of(request, system, {});
+  resolve_diameters(request, imported);
+  require_possible(request, imported);
+  result.notes.insert(result.notes.end(), imported.notes.begin(), imported.notes.end());
+  Dataset& dataset = result.dataset;
+  dataset.id = default_series(request);
+  dataset.system.method = value_named<Method>(system["method"].get<std::string>()).value();
+  for (const ImportedPoint& point : imported.points) {
+    auto series = std::ranges::find(dataset.series, point.series);
+    if (series == dataset.series.end()) {
+      dataset.series.push_back(point.series);
+      series = std::prev(dataset.series.end());
+    }
+    const auto index = static_cast<std::size_t>(series - dataset.series.begin());
+    dataset.points.push_back(summarised(point, index));
+  }
+  return result;
+}
 
 ImportResult import_points(const ImportRequest& asked) {
   refuse_existing(asked);

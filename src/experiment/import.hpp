@@ -155,4 +155,10 @@ struct ImportResult {
 ///   states it
 ImportResult import_points(const ImportRequest& request);
 
+/// Reads the impacts of balls that bounce, and writes nothing. The materials are not known, and the
+/// dataset has no other use than the summary of its points.
+/// @param density of the balls, for the drag of air [kg/m3]
+/// @throws InputError for a mistake in the file
+ImportResult read_bounces(const ImportRequest& request, double density);
+
 }  // namespace recoil

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t most_listed = 4;   // sizes in a sentence
 constexpr std::size_t most_ranked = 10;  // series in a sentence
-constexpr double shown_level = 0.05;     // a smaller p-value is reported as a difference
+constexpr double scatter_level = 0.01;
+constexpr double shown_level = 0.05;  // a smaller p-value is reported as a difference
 
 /// The name of a series, with its size if there are several sizes, and with its dataset if there
 /// are several.
@@ -148,7 +149,10 @@ Sentence outlier_words(const OutlyingBatch& batch, const std::vector<Dataset>& d
 
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
                                             const ImpactModel& model) {
-  const bool adhesion = adheres_anywhere(model);
+  return restitution_sentences(datasets, adheres_anywhere(model));
+}
+
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion) {
   const RestitutionSummary summary = summarise_restitution(datasets, adhesion);
   if (adhesion && !summary.ranges.empty()) return {ranges_words(summary.ranges, datasets)};
   std::vector<RestitutionMean> ranked;
@@ -176,6 +180,10 @@ std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets
   }
   if (summary.outlier) sentences.push_back(outlier_words(*summary.outlier, datasets));
   sentences.push_back(dependence_words(summary));
+  if (summary.scatter && summary.scatter->p_value < scatter_level) {
+    sentences.push_back(say("The points scatter {:.2g} times as much as they state ({}).",
+                            summary.scatter->ratio, p_words(summary.scatter->p_value)));
+  }
   if (summary.without_error > 0) {
     sentences.push_back(say("{} of {} points {} no error and {} with the median of the others.",
                             summary.without_error, summary.rebounds,
