@@ -56,8 +56,11 @@ const std::vector<OptionRow>& option_rows() {
       {"check", "DIR", path("DIR"), "the dataset's folder", required},
       {"init", "DIR", path("DIR"), "the new folder", required},
       {"merge", "DIR", path("DIR"), "the folder of the shards", required},
-      {"import", "FILE", path("FILE"), "what to import; - for standard input", required},
-      {"bounce", "FILE", path("FILE"), "heights, times or tracks; - for standard input", required},
+      {"import", "FILE", repeated(path("FILE")),
+       "what to import; - for standard input; several files are launches of one ball", required},
+      {"bounce", "FILE", repeated(path("FILE")),
+       "heights, times or tracks; - for standard input; several files are launches of one ball",
+       required},
       {"pair", "PASSAGES", path("PASSAGES"),
        "CSV file, one row per passage: time, velocity, diameter; optional tangential_velocity and "
        "series (a run; times of different runs are not compared)",
@@ -109,7 +112,7 @@ const std::vector<OptionRow>& option_rows() {
 
       // datasets
       {"init", "--points", path("FILE"),
-       "the points (CSV) with incident_velocity, restitution and any other column of a dataset "
+       "the points (a table) with a header such as V [m/s],e or the columns of a dataset "
        "(default: example points)"},
       {"init", "--provenance", one_of({"measured", "digitised"}), "where these points come from",
        "measured"},
@@ -123,7 +126,9 @@ const std::vector<OptionRow>& option_rows() {
       {"bounce", "--diameter", quantity(Dimension::length, "m", 1e-3, 1e1), "diameter of the ball"},
       {"bounce", "--mass", number(1e-9, 1e4), "mass of the ball [kg]"},
       {"import", "--into", path("DIR"), "the dataset's folder", required},
-      {"init import bounce", "--sheet", text("NAME"), "sheet of a workbook (default: the first)"},
+      {"init import bounce", "--sheet", text("NAME"),
+       "sheet of a workbook: its name, or its number from 1 on (default: the first that is not "
+       "hidden)"},
       {"init import bounce", "--map", repeated(text("QUANTITY=COLUMN:UNIT")),
        "quantity=column:unit, separated by commas; quantity=a+b+c for repeats in several columns; "
        "quantity=100cm for a constant; a unit may have a factor (0.35mm)"},
@@ -189,6 +194,9 @@ const std::vector<OptionRow>& option_rows() {
       {"pair", "--column", assignments("FIELD=NAME"),
        "names of columns, for files with other names than the fields, e.g. velocity=LDA1", "",
        "pair", "columns"},
+      {"pair", "--decimal-comma", nothing(),
+       "the decimal mark is a comma (2,5), where recoil does not recognise it", "", "pair",
+       "decimal_comma"},
       {"pair", "--positive", one_of({"towards", "away"}),
        "the direction in which velocities are positive: towards the surface or away from it",
        "towards", "pair", "positive"},
