@@ -15,7 +15,7 @@ namespace {
 
 constexpr double gram = 1e-3;  // [kg]
 
-constexpr TabledBall balls[] = {
+constexpr TabledBall sport_balls[] = {
     {"table-tennis", 40.0 * units::mm, 2.7 * gram,
      "International Table Tennis Federation, The Laws of Table Tennis, 2.3.1 and 2.3.2"},
     // 6.54 to 6.86 cm, 56.0 to 59.4 g
@@ -39,14 +39,14 @@ std::string plain_name(std::string name) {
 
 }  // namespace
 
-std::span<const TabledBall> tabled_balls() { return balls; }
+std::span<const TabledBall> tabled_balls() { return sport_balls; }
 
 const TabledBall& tabled_ball(const std::string& name) {
   const std::string asked = plain_name(name);
-  const auto found = std::ranges::find(balls, asked, &TabledBall::name);
-  if (found != std::end(balls)) return *found;
+  const auto found = std::ranges::find(sport_balls, asked, &TabledBall::name);
+  if (found != std::end(sport_balls)) return *found;
   std::vector<std::string> names;
-  for (const TabledBall& ball : balls) names.emplace_back(ball.name);
+  for (const TabledBall& ball : sport_balls) names.emplace_back(ball.name);
   throw InputError({}, fmt::format("--ball {} is not in the table", quote(name)),
                    fmt::format("it has {}", listed(names)),
                    "give --diameter and --mass of this ball");
