@@ -511,6 +511,16 @@ bool has_no_point(const std::string& text) {
   return end == std::string::npos || text.find_first_not_of(blank, end) == std::string::npos;
 }
 
+/// Messages quote the points, so that a link must not lead to a file of somebody else.
+void require_inside(const fs::path& file, const fs::path& folder) {
+  std::error_code failed;
+  const fs::path place = fs::weakly_canonical(file, failed);
+  const fs::path inside = fs::relative(place, fs::weakly_canonical(folder, failed), failed);
+  if (failed || *inside.begin() != "..") return;
+  throw InputError({file.string()}, fmt::format("this is a link to {}", place.string()),
+                   "points have to be in the folder of their dataset", "copy the file here");
+}
+
 Dataset load(const fs::path& folder, bool may_lack_points) {
   require_package(folder);
   const fs::path package_file = folder / package_file_name;
@@ -523,6 +533,7 @@ Dataset load(const fs::path& folder, bool may_lack_points) {
     throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
                      "correct the path or add the file");
   }
+  if (!missing) require_inside(points_file, folder);
   std::string bytes = missing ? "" : read_bytes(points_file);
   const auto size = static_cast<double>(bytes.size());
   const bool other_bytes = package.points_bytes.value_or(size) != size ||

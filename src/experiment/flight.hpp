@@ -106,9 +106,10 @@ class AirFlight {
   double fall_to_reach(double speed) const;
 
   double reynolds(double speed) const { return reynolds_per_speed_ * speed; }
+  /// The deceleration by drag [m/s2] at a speed.
+  double deceleration(double speed) const;
 
  private:
-  double deceleration(double speed) const;
   template <class F>
   double launch_for(const F& excess, double least) const;
 

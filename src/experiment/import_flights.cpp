@@ -13,72 +13,6 @@
 namespace recoil {
 namespace {
 
-/// Computes the flights of the spheres of one import, and records the effect of air on e.
-class Flights {
- public:
-  Flights(const ImportRequest& request, const SphereInAir& sphere)
-      : request_(request), sphere_(sphere), gravity_(request.gravity) {}
-
-  double gravity() const { return gravity_; }
-
-  /// The flights of a sphere of `series` in air. nullopt in vacuum, and if size, density or air are
-  /// unknown or impossible (the dataset is then refused later).
-  std::optional<AirFlight> in_air(const std::string& series,
-                                  const std::optional<double>& diameter_in_file) const {
-    const auto diameter = known_diameter(request_, series, diameter_in_file);
-    const bool possible = diameter && limits::diameter.contains(*diameter) &&
-                          limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
-                          limits::pressure.contains(sphere_.air.pressure) &&
-                          limits::temperature.contains(sphere_.air.temperature);
-    if (!possible) return std::nullopt;
-    return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
-  }
-
-  /// Records the effect of air on one point. @param in_vacuum e if air drag is neglected
-  void note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,
-                 const AirFlight& air, double velocity, double e, double in_vacuum) {
-    constexpr double largest = limits::restitution.upper;
-    if (!(e <= largest) && in_vacuum <= largest) {
-      table.fail(row, quantity,
-                 fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
-                             sphere_.air.pressure),
-                 "a sphere of this size and density could not have risen so high",
-                 "check the units in --map, --diameter and the density, or write "
-                 "--ambient-pressure 0 for vacuum");
-    }
-    const double share = e > 0.0 ? 1.0 - in_vacuum / e : 0.0;
-    if (!any_ || velocity < share_.slow) {
-      share_.slow = velocity;
-      share_.slow_share = share;
-    }
-    if (!any_ || velocity > share_.fast) {
-      share_.fast = velocity;
-      share_.fast_share = share;
-    }
-    share_.reynolds = std::max(share_.reynolds, air.reynolds(velocity));
-    any_ = true;
-  }
-
-  void add_notes(std::vector<ImportNote>& notes) const {
-    if (!any_) return;
-    ImportNote note{ImportRemark::air_drag};
-    note.air = share_;
-    note.air.pressure = sphere_.air.pressure;
-    note.air.temperature = sphere_.air.temperature;
-    notes.push_back(note);
-    if (share_.reynolds <= drag_law_reynolds) return;
-    note.remark = ImportRemark::turbulent_air;
-    notes.push_back(note);
-  }
-
- private:
-  const ImportRequest& request_;
-  SphereInAir sphere_;
-  double gravity_;
-  bool any_ = false;
-  AirShare share_;
-};
-
 /// One drop, or all drops of one sphere from one height.
 struct Drops {
   std::string series;
@@ -387,6 +321,53 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
 }  // namespace
 
 bool air_acts(const Air& air) { return air.pressure >= 1e-3; }
+
+std::optional<AirFlight> Flights::in_air(const std::string& series,
+                                         const std::optional<double>& diameter_in_file) const {
+  const auto diameter = known_diameter(request_, series, diameter_in_file);
+  const bool possible = diameter && limits::diameter.contains(*diameter) &&
+                        limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
+                        limits::pressure.contains(sphere_.air.pressure) &&
+                        limits::temperature.contains(sphere_.air.temperature);
+  if (!possible) return std::nullopt;
+  return AirFlight(sphere_.air, *diameter, sphere_.density, gravity());
+}
+
+void Flights::note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,
+                        const AirFlight& air, double velocity, double e, double in_vacuum) {
+  constexpr double largest = limits::restitution.upper;
+  if (!(e <= largest) && in_vacuum <= largest) {
+    table.fail(row, quantity,
+               fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
+                           sphere_.air.pressure),
+               "a sphere of this size and density could not have risen so high",
+               "check the units in --map, --diameter and the density, or write "
+               "--ambient-pressure 0 for vacuum");
+  }
+  const double share = e > 0.0 ? 1.0 - in_vacuum / e : 0.0;
+  if (!any_ || velocity < share_.slow) {
+    share_.slow = velocity;
+    share_.slow_share = share;
+  }
+  if (!any_ || velocity > share_.fast) {
+    share_.fast = velocity;
+    share_.fast_share = share;
+  }
+  share_.reynolds = std::max(share_.reynolds, air.reynolds(velocity));
+  any_ = true;
+}
+
+void Flights::add_notes(std::vector<ImportNote>& notes) const {
+  if (!any_) return;
+  ImportNote note{ImportRemark::air_drag};
+  note.air = share_;
+  note.air.pressure = sphere_.air.pressure;
+  note.air.temperature = sphere_.air.temperature;
+  notes.push_back(note);
+  if (share_.reynolds <= drag_law_reynolds) return;
+  note.remark = ImportRemark::turbulent_air;
+  notes.push_back(note);
+}
 
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
   ImportTable table(request, {{"series", Dimension::text},

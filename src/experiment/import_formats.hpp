@@ -18,6 +18,33 @@ struct SphereInAir {
 /// True unless the air is too thin to slow down even the smallest sphere, below 1e-3 Pa.
 bool air_acts(const Air& air);
 
+/// Computes the flights of the spheres of one import, and records the effect of air on e.
+class Flights {
+ public:
+  Flights(const ImportRequest& request, const SphereInAir& sphere)
+      : request_(request), sphere_(sphere) {}
+
+  double gravity() const { return request_.gravity; }  ///< [m/s2]
+
+  /// The flight of a sphere of `series` in air. nullopt in vacuum, and if size, density or air are
+  /// unknown or impossible (the dataset is then refused later).
+  std::optional<AirFlight> in_air(const std::string& series,
+                                  const std::optional<double>& diameter_in_file) const;
+
+  /// Records the effect of air on one point. @param in_vacuum e if air drag is neglected
+  /// @throws InputError at the cell of `quantity` if only the drag makes e impossible
+  void note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,
+                 const AirFlight& air, double velocity, double e, double in_vacuum);
+
+  void add_notes(std::vector<ImportNote>& notes) const;
+
+ private:
+  const ImportRequest& request_;
+  SphereInAir sphere_;
+  bool any_ = false;
+  AirShare share_;
+};
+
 /// Reads drop heights h1 and rebound heights h2. In vacuum e = sqrt(h2 / h1), V = sqrt(2 g h1). In
 /// air V is the speed at the end of the fall, and e V is the launch speed that reaches h2 (see
 /// AirFlight). The errors are sd(e) = (e/2) sqrt((s1/h1)^2 + (s2/h2)^2) and sd(V) = (V/2) s1/h1. If
@@ -45,20 +72,22 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
 ImportedPoints read_digitised(const ImportRequest& request);
 
 /// Reads heights of one or several balls over time, as from video analysis: `time` or `frame` (with
-/// --fps), `height` or `pixel` (with --scale, the length of a pixel; without it the scale follows
-/// from the acceleration of the fall, which is g).
+/// --fps; without either, a row is a frame), `height` or `pixel` (with --scale, the length of a
+/// pixel; without it the scale follows from the acceleration of the fall, which is g). `launch`
+/// tells the tracks of one series apart.
 ///
 /// Impacts are the minima above the noise. The flights between them are fitted by least squares,
-///   y = c_k + b_k (t - t_k) - a (t - t_k)^2 / 2,
+///   y = c_k + b_k (t - t_k) - a (t - t_k)^2 / 2 + d_k(t),
 /// with one a for each ball, without the sample at the minimum, which may belong to either flight.
-/// Two parabolas intersect at the impact, where e = -v_after / v_before and V = -v_before. The
-/// errors follow from the scatter about the parabolas and the covariance of c, b and a. Air drag is
-/// not corrected.
+/// d_k is what the drag of air (see AirFlight) adds to the height of a ball that passes t_k with
+/// b_k: zero in vacuum, otherwise integrated by Runge-Kutta steps and iterated until it is that of
+/// the fit. Two flights intersect at the impact, where e = -v_after / v_before and V = -v_before.
+/// The errors follow from the scatter about the flights and the covariance of c, b and a.
 ///
-/// Programs for images often count heights downward. Both directions are tried, and the one with
-/// the smaller scatter about parabolas that open downward (a > 0) is taken for all balls: in the
-/// other one, the flights that a > 0 needs would contain the impacts.
-ImportedPoints read_track(const ImportRequest& request);
+/// A frame that shows the height of the frame before it again is left out if the film repeats
+/// frames in fast motion, where whole pixels cannot. Heights are taken as downward if their second
+/// differences are mostly positive.
+ImportedPoints read_track(const ImportRequest& request, const SphereInAir& sphere);
 
 /// The datapackage.json of the folder whose points are to be replaced.
 struct ExistingPackage {

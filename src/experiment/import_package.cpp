@@ -26,8 +26,8 @@ std::string source_name(const ImportRequest& request) {
   return descriptor_named(request.file) ? "a pipe" : request.file.filename().string();
 }
 
-Json parse_json(const std::string& text, const std::filesystem::path& file) {
-  Json json = Json::parse(text, nullptr, false);
+Json parse_object(const std::string& text, const std::filesystem::path& file) {
+  Json json = parse_json(text);
   if (!json.is_object()) {
     throw InputError({file.string()}, "this is not a JSON object", "",
                      "write {\"material\": ..., \"youngs_modulus\": ..., ...}");
@@ -56,7 +56,7 @@ constexpr MaterialConstant constants[] = {{"density", Dimension::density},
 Json material(const std::string& words, const std::string& option) {
   std::error_code failed;
   if (std::filesystem::exists(words, failed) || words.ends_with(".json")) {
-    return parse_json(read_text_file(words), words);
+    return parse_object(read_text_file(words), words);
   }
   Json json;
   std::vector<std::string> parts = split_list(words);
@@ -103,7 +103,7 @@ Provenance provenance_for(const ImportRequest& request,
 /// Writes the stated conditions. Flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
-      request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
+      request.format != ImportFormat::webplotdigitizer && request.format != ImportFormat::csv;
   const auto put_if_missing = [&](const char* key, double otherwise) {
     if (system.contains("conditions") && system["conditions"].contains(key)) return;
     system["conditions"][key] = otherwise;
@@ -163,9 +163,9 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           source_name(request), request.gravity, air_words(air));
     case ImportFormat::track:
       return fmt::format(
-          "Tracks of falling spheres, imported from {}: e and V where the parabolas before and "
-          "after an impact meet{}.",
-          source_name(request),
+          "Tracks of falling spheres, imported from {}: e and V where the flights before and after "
+          "an impact meet, {}{}.",
+          source_name(request), air_words(air),
           request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
     case ImportFormat::csv:
       break;
@@ -241,7 +241,7 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
   const std::string text = read_text_file(file);
   const Package package = read_package(text, file.string(), name_for(folder));
   ExistingPackage existing;
-  existing.json = parse_json(text, file);
+  existing.json = parse_object(text, file);
   existing.provenance = package.provenance;
   existing.points_path = package.points_path;
   for (const Column& column : package.columns) existing.units[column.name] = column.unit;

@@ -355,8 +355,8 @@ std::string table_text(const ImportRequest& request, std::vector<ImportNote>& no
     return std::move(sheet.table);
   }
   if (!request.sheet.empty()) {
-    throw InputError({file}, "--sheet, but this is not a workbook", "recoil reads .xlsx and .ods",
-                     "leave the option out");
+    throw InputError({file}, "--sheet, but this is not a workbook",
+                     "recoil reads .xlsx, .ods and .xls", "leave the option out");
   }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
     throw InputError({file}, "this file is in UTF-16", "recoil reads UTF-8",

@@ -53,6 +53,7 @@ struct ImportedPoint {
   std::string launch;                               ///< of timed bounces; empty: none
   PerValue<Quantity, std::optional<double>> value;  ///< of all quantities except texts
   int line = 0;                                     ///< in the file
+  std::size_t part = 0;                             ///< index of the file, if there are several
 
   /// e, from the rebound velocity if that is given; nullopt if all were captured.
   std::optional<double> restitution() const;

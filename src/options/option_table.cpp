@@ -56,7 +56,8 @@ const std::vector<OptionRow>& option_rows() {
       {"check", "DIR", path("DIR"), "the dataset's folder", required},
       {"init", "DIR", path("DIR"), "the new folder", required},
       {"merge", "DIR", path("DIR"), "the folder of the shards", required},
-      {"import", "FILE", path("FILE"), "what to import; - for standard input", required},
+      {"import", "FILE", repeated(path("FILE")),
+       "what to import; - for standard input; several files are launches of one ball", required},
       {"pair", "PASSAGES", path("PASSAGES"),
        "CSV file, one row per passage: time, velocity, diameter; optional tangential_velocity and "
        "series (a run; times of different runs are not compared)",
@@ -113,7 +114,9 @@ const std::vector<OptionRow>& option_rows() {
       {"init", "--diameter", diameter(), "diameter of all spheres"},
       {"import", "--format", one_of(all_names<ImportFormat>()), "what the file holds", required},
       {"import", "--into", path("DIR"), "the dataset's folder", required},
-      {"init import", "--sheet", text("NAME"), "sheet of a workbook (default: the first)"},
+      {"init import", "--sheet", text("NAME"),
+       "sheet of a workbook: its name, or its number from 1 on (default: the first that is not "
+       "hidden)"},
       {"init import", "--map", repeated(text("QUANTITY=COLUMN:UNIT")),
        "quantity=column:unit, separated by commas; quantity=a+b+c for repeats in several columns; "
        "quantity=100cm for a constant; a unit may have a factor (0.35mm)"},

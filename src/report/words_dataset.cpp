@@ -182,10 +182,13 @@ std::string note_sentence(const ImportNote& note) {
       std::vector<std::string> others = note.names;
       const std::string read = quote(others.front());
       others.erase(others.begin());
-      return others.empty() ? fmt::format("the sheet {} was read", read)
-                            : fmt::format("the sheet {} was read; --sheet NAME reads another: {}",
-                                          read, listed(others));
+      return others.empty()
+                 ? fmt::format("the sheet {} was read", read)
+                 : fmt::format("the sheet {} was read; --sheet NAME or NUMBER reads another: {}",
+                               read, listed(others));
     }
+    case columns_known:
+      return fmt::format("columns were taken by their names: {}; --map names others", names);
     case decimal_commas:
       return "the numbers have decimal commas";
     case lines_skipped:
@@ -249,13 +252,18 @@ std::string note_sentence(const ImportNote& note) {
     case track_fall:
       return fmt::format(
           "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is "
-          "wrong, or air drag is large; e does not depend on the scale, V does",
+          "wrong; e does not depend on the scale, V does",
           note.fall, note.gravity);
     case axis_points_down:
       return "the heights are taken as measured downward: only so are the flights parabolas of a "
              "fall";
-    case drag_stays:
-      return "the effect of air drag on the tracks was not removed";
+    case frames_repeated:
+      return counted(note.count, "frame") +
+             " left out: the film repeats frames, so that the ball stands still in flight";
+    case frames_mended:
+      return "the rows count as frames; " + counted(note.count, "frame") +
+             " that the film lost or shows twice, as steps of double or no length tell, were "
+             "allowed for";
     case shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";

@@ -438,6 +438,20 @@ TEST(LoadDataset, ReadsStrengthAndPermittivity) {
   EXPECT_FALSE(recoil::load_dataset(plain.path()).system.surface.yield_pressure());
 }
 
+TEST(LoadDataset, ALinkToAFileElsewhereIsNotRead) {
+  const DatasetFolder folder(example::package);
+  const support::TemporaryFolder other;
+  other.write("secret", "the secret line\n");
+  std::filesystem::rename(folder / "points.csv", folder / "own.csv");
+  std::filesystem::create_symlink("own.csv", folder / "points.csv");
+  EXPECT_NO_THROW(recoil::load_dataset(folder.path()));
+  std::filesystem::remove(folder / "points.csv");
+  std::filesystem::create_symlink(other / "secret", folder / "points.csv");
+  const std::string told = support::message_of([&] { recoil::load_dataset(folder.path()); });
+  EXPECT_EQ(told.find("the secret line"), std::string::npos) << told;
+  EXPECT_NE(told, "no error");
+}
+
 TEST(LoadDataset, ReadsManySeriesInATimeInProportionToTheirNumber) {
   // Were every series compared with every other one, this would take minutes.
   std::string points =

@@ -16,7 +16,7 @@ recoil::ImportRequest Place::request(const std::string& text, recoil::ImportForm
   request.provenance = recoil::Provenance::measured;
   request.sources = {"A test"};
   const bool flights =
-      format == recoil::ImportFormat::heights || format == recoil::ImportFormat::intervals;
+      format != recoil::ImportFormat::webplotdigitizer && format != recoil::ImportFormat::csv;
   if (flights) request.conditions = {"ambient_pressure=0"};  // air would stop such spheres at once
   return request;
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "core/random.hpp"
 #include "import_folder.hpp"
@@ -50,6 +52,127 @@ struct Ball {
     return time;
   }
 };
+
+/// A ball of 40 mm and 2.7 g that falls from 1 m through air of 1.204735 kg/m3 and 18.12688 uPa s,
+/// and leaves each bounce with e times its speed: its heights [m] every `interval` [s], integrated
+/// in steps of 10 us with the drag coefficient of Brown & Lawler (2003).
+std::vector<double> heights_in_air(double e, double interval, std::size_t bounces) {
+  constexpr double step = 1e-5;
+  const auto acceleration = [](double v) {
+    if (v == 0.0) return -kStandardGravity;
+    const double re = 1.204735 * std::abs(v) * 0.04 / 18.12688e-6;
+    const double c = 24.0 / re * (1.0 + 0.150 * std::pow(re, 0.681)) + 0.407 / (1.0 + 8710.0 / re);
+    return -kStandardGravity - c * 1.204735 * M_PI * 0.02 * 0.02 / 2.0 * v * std::abs(v) / 0.0027;
+  };
+  std::vector<double> heights;
+  double y = 1.0;
+  double v = 0.0;
+  std::size_t bounced = 0;
+  for (std::size_t i = 0; bounced <= bounces; ++i) {
+    if (i % static_cast<std::size_t>(std::lround(interval / step)) == 0) heights.push_back(y);
+    const double half = v + 0.5 * step * acceleration(v);
+    const double a = acceleration(half);
+    double next = y + step * half;
+    const double speed = v + step * a;
+    if (next < 0.0) {  // the rest of the step after the bounce
+      const double share = y / (y - next);
+      const double hit = v + share * step * a;
+      v = -e * hit;
+      next = v * (1.0 - share) * step;
+      v += (1.0 - share) * step * acceleration(v);
+      ++bounced;
+    } else {
+      v = speed;
+    }
+    y = next;
+  }
+  return heights;
+}
+
+recoil::ImportRequest table_tennis(const Place& place, const std::string& text) {
+  auto request = place.request(text, ImportFormat::track);
+  request.diameters = {"40mm"};
+  request.particle = "material=celluloid,density=80.5722,youngs_modulus=2e9,poisson_ratio=0.35";
+  request.adhesion_energy = 0.0;
+  request.conditions = {"ambient_pressure=101325", "temperature=293"};
+  return request;
+}
+
+TEST(Track, TheDragOfAirIsTakenOut) {
+  const std::vector<double> heights = heights_in_air(0.9, 0.005, 4);
+  std::string metres = "t,y\n";
+  std::string pixels = "t,y\n";  // of 1.5 mm, downward
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    metres += fmt::format("{:.4f},{:.7f}\n", 0.005 * static_cast<double>(i), heights[i]);
+    pixels +=
+        fmt::format("{:.4f},{:.5f}\n", 0.005 * static_cast<double>(i), 900.0 - heights[i] / 1.5e-3);
+  }
+  for (const bool scaled : {true, false}) {
+    const Place place;
+    auto request = table_tennis(place, scaled ? metres : pixels);
+    request.map = {scaled ? "time=t:s,height=y:m" : "time=t:s,pixel=y"};
+    const auto made = recoil::import_points(request);
+    ASSERT_EQ(made.dataset.points.size(), 4U);
+    for (const auto& point : made.dataset.points) EXPECT_NEAR(point.restitution, 0.9, 2e-4);
+    // The fall over 1 m, as in the tests of AirFlight.
+    EXPECT_NEAR(made.dataset.points.front().incident_velocity, 4.1875819, 2e-3);
+    EXPECT_EQ(
+        std::ranges::count(made.notes, recoil::ImportRemark::air_drag, &recoil::ImportNote::remark),
+        1);
+  }
+}
+
+TEST(Track, RepeatedFramesAreLeftOut) {
+  // Whole pixels of 375 a metre; the ball is held for 2 s. `shown[i]` is the frame at i.
+  const Ball ball{1.7, 0.8, 2.0, 4};
+  for (const int again : {5, 2}) {  // one frame of five, one of two
+    const double fps = again == 2 ? 120.0 : 24.0;
+    std::string text = "t,y\n";
+    for (int i = 0; i / fps < ball.end(); ++i) {
+      const int shown = i % again == again - 1 ? i - 1 : i;
+      text += fmt::format("{:.6f},{:.0f}\n", i / fps, 900.0 - 375.0 * ball.height(shown / fps));
+    }
+    const Place place;
+    auto request = place.request(text, ImportFormat::track);
+    request.map = {"time=t:s,pixel=y"};
+    const auto made = recoil::import_points(request);
+    ASSERT_GE(made.dataset.points.size(), 3U) << again;
+    for (const auto& point : made.dataset.points) {
+      EXPECT_NEAR(point.restitution, 0.8, 3.0 * *point.restitution_sd) << again;
+      EXPECT_LT(*point.restitution_sd, 0.05);
+    }
+    EXPECT_EQ(std::ranges::count(made.notes, recoil::ImportRemark::frames_repeated,
+                                 &recoil::ImportNote::remark),
+              1);
+  }
+}
+
+TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
+  // No header and no times: x;y; in pixels of 2 mm, with a lost frame in a flight of each launch.
+  const Ball ball{0.8, 0.7, 0.2, 3};
+  std::string text;
+  for (const char* const launch : {"one", "two"}) {
+    for (int i = 0; i / 100.0 < ball.end(); ++i) {
+      if (i == 70) continue;
+      text += fmt::format("7.5;{:.4f};{};\n", 900.0 - 500.0 * ball.height(i / 100.0), launch);
+    }
+  }
+  const Place place;
+  auto request = place.request(text, ImportFormat::track);
+  request.map = {"pixel=2,launch=3"};
+  request.fps = 100.0;
+  request.series = "ball";
+  const auto made = recoil::import_points(request);
+  ASSERT_EQ(made.dataset.points.size(), 6U);
+  for (const auto& point : made.dataset.points) {
+    EXPECT_EQ(point.series, "ball");
+    EXPECT_NEAR(point.restitution, 0.7, 1e-4);
+  }
+  const auto mended = std::ranges::find(made.notes, recoil::ImportRemark::frames_mended,
+                                        &recoil::ImportNote::remark);
+  ASSERT_NE(mended, made.notes.end());
+  EXPECT_EQ(mended->count, 2U);
+}
 
 TEST(Track, TheStatedErrorsHoldTheTruth) {
   int inside_e = 0;
@@ -179,15 +302,15 @@ TEST(Track, LostSamplesRestAndTitlesDoNoHarm) {
 
 TEST(Track, WhatIsAskedFor) {
   const Place place;
-  auto request = place.request("t,y\n0,1\n0.1,0.9\n0.2,0.8\n", ImportFormat::track);
-  EXPECT_THAT(complaint(request), HasSubstr("--map time=COLUMN:s, or frame=COLUMN"));
-  request.map = {"time=t:s"};
+  auto request = place.request("s,z\n0,1\n0.1,0.9\n0.2,0.8\n", ImportFormat::track);
+  EXPECT_THAT(complaint(request), HasSubstr("--map time=COLUMN:s, or give --fps"));
+  request.map = {"time=s:s"};
   EXPECT_THAT(complaint(request), HasSubstr("--map height=COLUMN:m, or pixel=COLUMN"));
-  request.map = {"time=t:s,height=y:m"};
+  request.map = {"time=s:s,height=z:m"};
   EXPECT_THAT(complaint(request), HasSubstr("no impact was found in these tracks"));
   request.scale = "1mm";
   EXPECT_THAT(complaint(request), HasSubstr("--scale without pixels"));
-  auto back = place.request("t,y\n0,1\n0.1,0.9\n0,1\n", ImportFormat::track);
+  auto back = place.request("s,z\n0,1\n0.1,0.9\n0,1\n", ImportFormat::track);
   back.map = request.map;
   EXPECT_THAT(complaint(back), HasSubstr("input.csv:4:1: a time of 0 s"));
 }
