@@ -9,6 +9,7 @@
 #include "data/contact.hpp"
 #include "experiment/import_formats.hpp"
 #include "experiment/import_table.hpp"
+#include "experiment/recording.hpp"
 
 namespace recoil {
 namespace {
@@ -133,6 +134,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
     case ImportFormat::heights:
       return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
+    case ImportFormat::recording:
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
       return read_track(request, sphere_in_air(system));
@@ -140,6 +142,18 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
       break;
   }
   return read_columns(request, units);
+}
+
+/// Makes a table of the instants of a recording, with their error unless the request states one.
+void listen(ImportRequest& request, std::vector<ImportNote>& notes) {
+  const HeardImpacts heard =
+      hear_impacts(request.text ? *request.text : read_bytes(request.file), request.file.string());
+  request.text = heard.table;
+  request.map.emplace_back("time=time:s");
+  ImportNote note{ImportRemark::impacts_heard, {}, heard.count};
+  note.time_sd = heard.time_sd;
+  notes.push_back(note);
+  if (request.time_error.empty()) request.time_error = fmt::format("{:.9g}s", heard.time_sd);
 }
 
 /// Adds the scatter of the experiment to the errors of the readings.
@@ -247,6 +261,7 @@ ImportResult import_points(const ImportRequest& asked) {
   refuse_existing(asked);
   ImportRequest request = asked;
   std::vector<ImportNote> notes;
+  if (request.format == ImportFormat::recording) listen(request, notes);
   if (!request.text) request.text = table_text(request, notes);  // before options are missed
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();

@@ -249,6 +249,9 @@ std::string note_sentence(const ImportNote& note) {
       return "the rows count as frames; " + counted(note.count, "frame") +
              " that the film lost or shows twice, as steps of double or no length tell, were "
              "allowed for";
+    case impacts_heard:
+      return fmt::format("{} heard; an instant is known to {:.2g} ms (--time-error sets it)",
+                         counted(note.count, "impact"), note.time_sd / units::ms);
     case shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";

