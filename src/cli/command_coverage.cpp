@@ -107,11 +107,13 @@ void run_coverage(const GivenOptions& given) {
     return;
   }
   resumable(pieces, *kept);
-  std::vector<CoverageTrial> trials;
-  for (std::size_t i = 0; i < pieces.count; ++i) {
-    trials.push_back(value_from<CoverageTrial>(kept->find(i).value()));
-  }
-  const CoverageResult result = count_coverage(ready->spec, ready->truth, ready->coverage, trials);
+  const CoverageResult result = counted_rows(*kept, [&] {
+    std::vector<CoverageTrial> trials;
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+      trials.push_back(value_from<CoverageTrial>(kept->find(i).value_or(Json())));
+    }
+    return count_coverage(ready->spec, ready->truth, ready->coverage, trials);
+  });
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));

@@ -50,9 +50,13 @@ std::shared_ptr<KeptRows> measure_rates(const GivenOptions& given, const FitInpu
   const std::shared_ptr<KeptRows> kept =
       shard.rows(origin, folder.empty() ? "" : folder / "rates.json");
   resumable(pieces, *kept);
-  std::vector<std::vector<double>> rows;
-  for (std::size_t i = 0; i < pieces.count; ++i) rows.push_back(row_numbers(*kept->find(i)));
-  diagnosis.own_design = rates.count(rows);
+  diagnosis.own_design = counted_rows(*kept, [&] {
+    std::vector<std::vector<double>> rows;
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+      rows.push_back(row_numbers(kept->find(i).value_or(Json())));
+    }
+    return rates.count(rows);
+  });
   return kept;
 }
 

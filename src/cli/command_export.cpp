@@ -140,16 +140,8 @@ std::vector<WholeFile> table_files(const Fitted& fitted, const ExportRequest& re
   return {{"restitution.csv", csv_restitution(table)}, {"capture.csv", csv_captures(table)}};
 }
 
-/// @throws InputError if --stock is given for a target that gets a table of e(V, d)
-void require_stock_model(const GivenOptions& given, ExportTarget target) {
-  if (!given.has("--stock") || !holds_all_sizes(target)) return;
-  throw InputError({}, fmt::format("--to {} has no stock model for --stock", name_of(target)),
-                   "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
-}
-
 void run_export(const GivenOptions& given) {
   const ExportTarget target = *value_named<ExportTarget>(given.text("--to"));
-  require_stock_model(given, target);
   const std::filesystem::path out = given.text("--out");
   require_writable_folder(out);
   const Claim claim(out / "export");

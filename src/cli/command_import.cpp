@@ -1,13 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
-#include "data/text.hpp"
 #include "experiment/import.hpp"
 #include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
@@ -15,45 +11,11 @@
 namespace recoil {
 namespace {
 
-/// An option that only some formats use.
-struct OptionOfFormats {
-  std::string_view option;
-  std::vector<ImportFormat> formats;
-};
-
-/// @throws InputError for an option that the format does not use
-void require_used(const GivenOptions& given, ImportFormat format) {
-  using enum ImportFormat;
-  static const std::vector<OptionOfFormats> some = {
-      {"--axis", {webplotdigitizer}},
-      {"--reading-error", {webplotdigitizer}},
-      {"--error-series", {webplotdigitizer}},
-      {"--sd-of", {csv}},
-      {"--scatter", {webplotdigitizer}},
-      {"--captured-below", {webplotdigitizer, heights}},
-      {"--drop-error", {heights, intervals, recording}},
-      {"--rebound-error", {heights}},
-      {"--time-error", {intervals, recording}},
-      {"--average", {heights}},
-      {"--gravity", {heights, intervals, track, recording}},
-      {"--fps", {track}},
-      {"--scale", {track}},
-  };
-  for (const OptionOfFormats& one : some) {
-    const std::string option(one.option);
-    if (!given.has(option) || std::ranges::count(one.formats, format) > 0) continue;
-    std::vector<std::string_view> names;
-    for (const ImportFormat its : one.formats) names.push_back(name_of(its));
-    throw InputError(
-        {}, fmt::format("{} does nothing with --format {}", option, name_of(format)),
-        fmt::format("it is an option of {}", fmt::join(names, " and ")),
-        "leave it out; a column of the file is named by --map, as restitution_sd=COLUMN");
-  }
-}
-
 ImportRequest request_of(const GivenOptions& given) {
   ImportRequest r;
-  r.file = given.text("FILE");
+  const std::vector<std::string> files = given.texts("FILE");
+  r.file = files.front();
+  r.more_files.assign(files.begin() + 1, files.end());
   r.format = *value_named<ImportFormat>(given.text("--format"));
   r.into = given.text("--into");
   r.sheet = given.text("--sheet");
@@ -92,7 +54,6 @@ ImportRequest request_of(const GivenOptions& given) {
 
 void run_import(const GivenOptions& given) {
   const ImportRequest request = request_of(given);
-  require_used(given, request.format);
   require_writable_folder(request.into);
   const Claim claim(request.into / "points.csv");
   const ImportResult result = import_points(request);

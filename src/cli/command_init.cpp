@@ -95,11 +95,6 @@ void run_init(const GivenOptions& given) {
   NewFiles made({folder / package_file_name, folder / "points.csv", fit_file});
   ImportResult result;
   if (points.empty()) {
-    for (const char* option : {"--sheet", "--map"}) {
-      if (!given.has(option)) continue;
-      throw InputError({}, fmt::format("{} without --points", option), "it says how to read points",
-                       fmt::format("name their file with --points, or leave {} out", option));
-    }
     if (!given.has("--diameter")) {
       throw InputError({}, "the diameter of the spheres is not known", "",
                        "give --diameter 5, or points with a column diameter");

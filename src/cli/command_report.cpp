@@ -192,12 +192,16 @@ void report(const GivenOptions& given) {
   require_writable_folder(out);
   const std::vector<fs::path> fits = fits_to_report(given);
   require_distinct_pages(fits);
-  std::vector<IndexEntry> entries;
+  std::vector<FitInputs> all;  // a mistake in one of them ends the command before the work
   for (const fs::path& fit : fits) {
-    const std::string id = fit.stem().string();
-    const PageFiles files(out, id);
-    FitInputs inputs = load_inputs(fit);
+    all.push_back(load_inputs(fit));
+    const PageFiles files(out, fit.stem().string());
     require_free({files.page, files.folder / "extended.toml"});
+  }
+  std::vector<IndexEntry> entries;
+  for (FitInputs& inputs : all) {
+    const std::string id = fits[entries.size()].stem().string();
+    const PageFiles files(out, id);
     const std::string expected = fingerprint(inputs, given);
     IndexEntry entry;
     entry.page = url_path(id + ".html");

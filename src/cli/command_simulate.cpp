@@ -220,6 +220,16 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
   return table;
 }
 
+/// A diameter that is 10 times smaller or larger than all of the data may be in another unit.
+void warn_if_far(const Dataset& dataset, double diameter) {
+  constexpr double far = 10.0;
+  const std::vector<double> measured = distinct_diameters(dataset);
+  if (measured.empty()) return;
+  if (diameter * far > measured.front() && diameter < measured.back() * far) return;
+  print_text(stderr, "warning: the spheres of {} measure {:.4g} to {:.4g} um, but this one {:.4g} um\n",
+             dataset.id, in_um(measured.front()), in_um(measured.back()), in_um(diameter));
+}
+
 void simulate(const GivenOptions& given) {
   const std::string history = given.text("--history");
   const std::string parameters = given.text("--parameters");
@@ -232,6 +242,7 @@ void simulate(const GivenOptions& given) {
   if (!history.empty()) require_free({history});
   const std::size_t d = choose_dataset(datasets, given.text("--dataset"));
   const PointConditions at = {d, given.number("--diameter"), given.number("--velocity")};
+  warn_if_far(datasets[d], at.diameter);
   const SimulatedImpact simulated = simulate_at(model, datasets, at);
   if (!history.empty()) write_whole_file(history, history_csv(simulated));
   if (given.has("--json")) {

@@ -9,6 +9,7 @@
 
 #include "core/quoting.hpp"
 #include "data/text.hpp"
+#include "options/useless_options.hpp"
 
 namespace recoil {
 
@@ -143,6 +144,7 @@ GivenOptions Program::parse(const std::vector<std::string>& words) {
 void Program::run(const std::vector<std::string>& words) {
   try {
     const GivenOptions given = parse(words);
+    refuse_useless_options(given);
     std::ranges::find(entries_, given.command(), &Entry::name)->action(given);
   } catch (const CLI::Success& request) {
     app_->exit(request);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
+#include <utility>
 
 #include "core/quoting.hpp"
 
@@ -25,17 +27,21 @@ std::string compose(const Location& where, const std::string& problem, const std
   return printable(text);
 }
 
-/// Levenshtein distance [number of single-character edits].
+/// Levenshtein distance, with exchanges of neighbours (optimal string alignment) [number of edits].
 std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1);
+  std::vector<std::size_t> above(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    std::swap(before, above);
+    std::swap(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+      const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, substituted});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -51,11 +57,22 @@ InputError::InputError(const Location& where, const std::string& problem, const 
       why_(printable(why)),
       suggestion_(printable(suggestion)) {}
 
+std::string plain_word(std::string_view word) {
+  std::string plain;
+  for (const char c : word) {
+    if (c == ' ' || c == '-' || c == '_') continue;
+    plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return plain;
+}
+
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+  const std::string plain = plain_word(word);
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  std::size_t best_distance =
+      plain.size() <= 2 ? 1 : std::max<std::size_t>(1, (plain.size() + 1) / 4) + 1;
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distance(plain, plain_word(candidate));
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -49,8 +49,13 @@ class ComputationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// `word` in small letters, without blanks, hyphens and underscores. Words that are equal in this
+/// form mean the same.
+std::string plain_word(std::string_view word);
+
 /// The member of `known` that is nearest to `word` in edit distance, for "did you mean" hints;
-/// empty when nothing is near.
+/// empty when nothing is near. One letter in four may be wrong, but none of two. Two letters that
+/// changed places count as one.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace recoil

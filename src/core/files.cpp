@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -44,9 +43,8 @@ FileIdentity identity_of(const struct stat& file) {
   return {file.st_dev, file.st_ino, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
 }
 
-/// The files that this process has read since `protect_inputs`.
+/// The files that this process has read.
 struct ReadFiles {
-  std::atomic<bool> are_protected = false;
   std::mutex mutex;
   std::set<FileIdentity> files;
 };
@@ -125,6 +123,93 @@ bool is_special(const std::filesystem::path& path) {
          !std::filesystem::is_directory(status);
 }
 
+/// Gives the file `path` a second name, or where the file system has no such names, a copy.
+/// @return 0, or the errno of the failure
+int keep_as(const std::filesystem::path& path, const std::filesystem::path& kept) {
+  if (link(path.c_str(), kept.c_str()) == 0) return 0;
+  std::error_code failed;
+  std::filesystem::copy_file(path, kept, failed);
+  return failed.value();
+}
+
+/// Files that belong together on their way to their places.
+class Replacement {
+ public:
+  /// @param ending of the names of temporary files
+  Replacement(std::vector<WholeFile> files, const std::string& ending) {
+    for (WholeFile& file : files) {
+      const std::string name = file.path.string();
+      steps_.push_back({std::move(file), name + ending, name + ".kept" + ending});
+    }
+  }
+  /// Goes back unless all files are in their places, and removes the temporary ones.
+  ~Replacement() {
+    std::error_code failed;
+    for (const Step& step : steps_) {
+      if (!done_ && step.placed) {
+        if (step.kept) {
+          std::filesystem::rename(step.earlier, step.file.path, failed);
+        } else {
+          std::filesystem::remove(step.file.path, failed);
+        }
+      }
+      if (step.made && !step.placed) std::filesystem::remove(step.part, failed);
+      if (step.kept && (done_ || !step.placed)) std::filesystem::remove(step.earlier, failed);
+    }
+  }
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  /// @throws InputError for a file that cannot be written; the destructor then goes back
+  void run() {
+    for (Step& step : steps_) write(step);
+    for (Step& step : steps_) {
+      if (&step == &steps_.back() || !is_there(step.file.path)) continue;
+      step.kept = true;
+      if (const int error = keep_as(step.file.path, step.earlier)) {
+        throw cannot_be_written(step.file.path, error);
+      }
+    }
+    std::error_code failed;
+    for (Step& step : steps_) {
+      std::filesystem::rename(step.part, step.file.path, failed);
+      if (failed) {
+        throw InputError({step.file.path.string()}, "the finished file cannot be put in its place",
+                         failed.message(), "choose another place");
+      }
+      step.placed = true;
+    }
+    done_ = true;
+  }
+
+ private:
+  struct Step {
+    WholeFile file;
+    std::filesystem::path part;     ///< the new file until it is in its place
+    std::filesystem::path earlier;  ///< the replaced one until all are
+    bool made = false;
+    bool kept = false;
+    bool placed = false;
+  };
+
+  static bool is_there(const std::filesystem::path& path) {
+    std::error_code failed;
+    return std::filesystem::exists(path, failed);
+  }
+
+  static void write(Step& step) {
+    const std::filesystem::path& path = step.file.path;
+    std::error_code failed;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
+    const int error = failed ? failed.value() : write_new_file(step.part, step.file.text, path);
+    step.made = !failed && error != EEXIST;
+    if (error != 0) throw cannot_be_written(path, error);
+  }
+
+  std::vector<Step> steps_;
+  bool done_ = false;
+};
+
 /// The hint appended to "cannot be written" errors.
 std::string advice_on(int failed) {
   switch (failed) {
@@ -149,8 +234,6 @@ int open_to_read(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-void protect_inputs() { read_files().are_protected = true; }
 
 std::optional<int> descriptor_named(const std::filesystem::path& path) {
   if (path == "-" || path == "/dev/stdin") return STDIN_FILENO;
@@ -209,10 +292,8 @@ std::string read_bytes(const std::filesystem::path& path, std::uintmax_t max_byt
            "it is a pipe or a device", "name a file");
     }
   }
-  if (read_files().are_protected) {
-    const std::lock_guard lock(read_files().mutex);
-    read_files().files.insert(identity_of(status));
-  }
+  const std::lock_guard lock(read_files().mutex);
+  read_files().files.insert(identity_of(status));
   return bytes;
 }
 
@@ -249,32 +330,7 @@ void write_whole_files(const std::vector<WholeFile>& all, Replacing replacing) {
   for (const WholeFile& file : all) {
     (is_special(file.path) ? special : files).push_back({behind_links(file.path), file.text});
   }
-  const auto beside = [&ending](const WholeFile& file) -> std::filesystem::path {
-    return file.path.string() + ending;
-  };
-  std::error_code failed;
-  const auto remove_from = [&](std::size_t first, std::size_t end) {
-    std::error_code ignored;
-    for (std::size_t i = first; i < end; ++i) std::filesystem::remove(beside(files[i]), ignored);
-  };
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::filesystem::path& path = files[i].path;
-    failed.clear();
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
-    if (const int error =
-            failed ? failed.value() : write_new_file(beside(files[i]), files[i].text, path);
-        error != 0) {
-      remove_from(0, error == EEXIST ? i : i + 1);
-      throw cannot_be_written(path, error);
-    }
-  }
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    std::filesystem::rename(beside(files[i]), files[i].path, failed);
-    if (!failed) continue;
-    remove_from(i, files.size());
-    throw InputError({files[i].path.string()}, "the finished file cannot be put in its place",
-                     failed.message(), "choose another place");
-  }
+  Replacement(std::move(files), ending).run();
   for (const WholeFile& file : special) {
     const int descriptor = open(file.path.c_str(), O_WRONLY | O_CLOEXEC);
     if (const int error = write_to_disk(OpenFile(descriptor), file.text, std::nullopt)) {
@@ -302,14 +358,15 @@ void require_free(const std::vector<std::filesystem::path>& outputs, Replacing r
     if (!places.insert(place).second || (exists && !files.insert(identity_of(file)).second)) {
       refuse("two results would have this name", "give one of them another name");
     }
-    if (!exists || replacing == Replacing::data || !read_files().are_protected) continue;
+    if (!exists || replacing == Replacing::data) continue;
     if (was_read(file)) {
       refuse("this input file would be overwritten", "choose another place for the result");
     }
     const std::string name = output.filename().string();
     if (name == "points.csv" || name == "datapackage.json") {
       refuse("existing data would be overwritten",
-             "choose another place for the result; import, pair and plan have --replace");
+             "choose another place for the result; import, pair and plan have --replace, Python "
+             "replace=True");
     }
   }
 }

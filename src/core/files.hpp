@@ -36,11 +36,8 @@ struct WholeFile {
   std::string text;
 };
 
-/// From now on, `require_free` refuses to replace a file that this process has read, or an existing
-/// points.csv or datapackage.json, unless it gets `Replacing::data`. The program calls this first.
-void protect_inputs();
-
-/// Which existing files may be replaced: results only, or also inputs and data.
+/// Which existing files may be replaced: results only, or also data: a file that this process has
+/// read, a points.csv or a datapackage.json.
 enum class Replacing { results, data };
 
 /// Writes a file as a whole: writes a new file with an unpredictable name beside the target,
@@ -51,15 +48,15 @@ enum class Replacing { results, data };
 void write_whole_file(const std::filesystem::path& path, std::string_view text,
                       Replacing replacing = Replacing::results);
 
-/// The same for files that belong together. No file is renamed before all are on the disk, so that
-/// a full disk leaves the earlier files unchanged.
+/// The same for files that belong together: all of them are replaced, or none. No file is renamed
+/// before all are on the disk, and the earlier ones stay beside them until all are renamed.
 void write_whole_files(const std::vector<WholeFile>& files,
                        Replacing replacing = Replacing::results);
 
 /// Checks the names of results. Commands call it before the computation; `write_whole_files` calls
 /// it again.
 /// @throws InputError if two outputs are the same file, if one is a folder, or if one is protected
-///   (see `protect_inputs`)
+///   (see `Replacing`)
 void require_free(const std::vector<std::filesystem::path>& outputs,
                   Replacing replacing = Replacing::results);
 

@@ -93,6 +93,11 @@ enum class NonFinite {
   word   ///< "inf", "-inf" or "nan", for intermediate results that are read back exactly
 };
 
+/// The JSON of a text, discarded (`is_discarded`) if it is none, or nested more deeply than
+/// `deepest_json`. Every JSON of a user's file comes through here or through JsonDocument.
+Json parse_json(std::string_view text);
+inline constexpr int deepest_json = 64;
+
 /// A number as JSON; minus zero becomes zero.
 Json number_or_null(double value);
 

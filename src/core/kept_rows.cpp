@@ -13,6 +13,9 @@
 namespace recoil {
 namespace {
 
+constexpr std::size_t longest_head = 1 << 20;          // [bytes]
+constexpr std::uintmax_t most_row_bytes = 1ULL << 30;  // a million replicates of 60 numbers
+
 /// Opens a file of rows, but no pipe or device.
 std::ifstream open_rows(const std::filesystem::path& file) {
   std::error_code failed;
@@ -28,8 +31,12 @@ std::string checksum(const Json& head, std::string_view rows) {
 /// The head in the first line of `in`.
 std::optional<Json> head_in(std::istream& in) {
   std::string line;
-  if (!in.good() || !std::getline(in, line)) return std::nullopt;
-  Json head = Json::parse(line, nullptr, false);
+  for (int c = in.get(); in.good() && c != '\n'; c = in.get()) {
+    line += static_cast<char>(c);
+    if (line.size() > longest_head) return std::nullopt;
+  }
+  if (!in.good()) return std::nullopt;
+  Json head = parse_json(line);
   if (!head.is_object() || !head.value("rows", Json()).is_number_unsigned() ||
       !head.value("bytes", Json()).is_number_unsigned() ||
       !head.value("sha256", Json()).is_string()) {
@@ -75,7 +82,15 @@ std::optional<Rows> read_rows(const std::filesystem::path& file) {
   std::ifstream in = open_rows(file);
   std::optional<Json> head = head_in(in);
   if (!head) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::uintmax_t size = head->at("bytes").get<std::uintmax_t>();
+  if (size > most_row_bytes) {
+    throw InputError({file.string()}, fmt::format("it has {} MB of rows", size / 1000000),
+                     fmt::format("at most {} MB are read", most_row_bytes / 1000000),
+                     "divide the work into more shards");
+  }
+  std::string text(size + 1, '\0');  // one more byte than there should be
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
   const std::string stated = head->at("sha256").get<std::string>();
   head->erase("sha256");
   if (checksum(*head, text) != stated) return std::nullopt;
@@ -117,7 +132,7 @@ std::optional<Json> KeptRows::find(std::size_t piece) const {
     if (found == rows_.end()) return std::nullopt;
     text = found->second;
   }
-  Json row = Json::parse(text, nullptr, false);
+  Json row = parse_json(text);
   return row.is_discarded() ? std::nullopt : std::optional<Json>(std::move(row));
 }
 
@@ -134,8 +149,9 @@ void KeptRows::put(std::size_t piece, const Json& row) {
   if (!file_.empty() && pace_.is_due()) pace_.keep([this] { write(); });
 }
 
-void KeptRows::add(Rows rows) {
+void KeptRows::add(Rows rows, const std::filesystem::path& file) {
   const std::lock_guard lock(mutex_);
+  folder_ = file.parent_path();
   rows_.merge(rows);
 }
 
@@ -147,6 +163,14 @@ void KeptRows::keep() {
 void KeptRows::forget() const {
   std::error_code ignored;
   if (!file_.empty()) std::filesystem::remove(file_, ignored);
+}
+
+InputError KeptRows::mistake(const std::string& why) const {
+  return {{(file_.empty() ? folder_ : file_).string()},
+          "its rows are not those of this computation",
+          why,
+          file_.empty() ? "remove the parts, and run the shards again"
+                        : "remove it, and run the same command again"};
 }
 
 std::size_t KeptRows::size() const {

@@ -8,9 +8,11 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/json.hpp"
 
 /// The results of numbered pieces of work as rows of a file.
@@ -28,6 +30,7 @@ void write_rows(const std::filesystem::path& file, Json head, const Rows& rows);
 std::optional<Json> read_row_head(const std::filesystem::path& file);
 
 /// All rows of a file; nullopt if it is missing or its rows were changed.
+/// @throws InputError if it is too large
 std::optional<Rows> read_rows(const std::filesystem::path& file);
 
 /// A row of numbers that round-trips every double.
@@ -79,8 +82,8 @@ class KeptRows {
   /// @throws CalledOff if the work was called off, because its result may then be incomplete
   void put(std::size_t piece, const Json& row);
 
-  /// Adds the rows of another file, except for pieces that have a row already.
-  void add(Rows rows);
+  /// Adds the rows of another `file`, except for pieces that have a row already.
+  void add(Rows rows, const std::filesystem::path& file);
 
   /// Writes the file now. @throws InputError if it cannot be written
   void keep();
@@ -94,16 +97,32 @@ class KeptRows {
   /// All rows. Call it only after the last `put`.
   const Rows& rows() const { return rows_; }
   const std::filesystem::path& file() const { return file_; }
+  /// The error for rows of another kind than expected.
+  InputError mistake(const std::string& why) const;
 
  private:
   void write() const;
 
   std::filesystem::path file_;
+  std::filesystem::path folder_;  ///< of added files
   std::string key_;
   mutable std::mutex mutex_;
   Rows rows_;
   KeepingPace pace_;
 };
+
+/// The result of `count`, which reads rows of `kept`.
+/// @throws InputError if they are JSON of another type, shape or length
+template <class Count>
+auto counted_rows(const KeptRows& kept, const Count& count) {
+  try {
+    return count();
+  } catch (const JsonMismatch& mismatch) {
+    throw kept.mistake(mismatch.what());
+  } catch (const std::out_of_range&) {
+    throw kept.mistake("one of them is too short");
+  }
+}
 
 /// The result of `piece`: `read(row)` if `kept` has its row, and otherwise `made = make()`, after
 /// adding the row `write(made)`. If `read` throws, the result is made again.

@@ -15,6 +15,16 @@ bool is_plain(char c, std::string_view others) {
          others.find(c) != std::string_view::npos;
 }
 
+/// True for a character that changes the order or the place of the letters around it: marks,
+/// embeddings and isolates of direction (UAX #9), and separators of lines.
+bool redirects(std::string_view character) {
+  if (character == "\xD8\x9C") return true;                           // U+061C
+  if (character.size() != 3 || character[0] != '\xE2') return false;  // U+2000 to U+2FFF
+  const unsigned last = byte_at(character, 2);
+  if (character[1] == '\x80') return last == 0x8E || last == 0x8F || (last >= 0xA8 && last <= 0xAE);
+  return character[1] == '\x81' && last >= 0xA6 && last <= 0xA9;  // U+2066 to U+2069
+}
+
 }  // namespace
 
 void replace_all(std::string& text, std::string_view old, std::string_view by) {
@@ -50,7 +60,8 @@ std::string printable(std::string_view text, bool lines) {
     const bool stays = lines && (text[i] == '\n' || text[i] == '\t');
     if (length == 0) {
       out += '?';
-    } else if (!stays && (byte < 0x20 || byte == 0x7f || c1)) {
+    } else if ((!stays && (byte < 0x20 || byte == 0x7f || c1)) ||
+               redirects(text.substr(i, length))) {
       out += ' ';
     } else {
       out += text.substr(i, length);

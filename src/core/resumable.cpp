@@ -236,7 +236,7 @@ std::shared_ptr<KeptRows> rows_of_parts(const fs::path& folder, const Origin& or
           "their SHA-256 differs from that in the first line",
           fmt::format("remove it, and run shard {}/{} again", part.shard.number, part.shard.of));
     }
-    kept->add(std::move(*rows));
+    kept->add(std::move(*rows), part.file);
   }
   return kept;
 }

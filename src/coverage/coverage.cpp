@@ -69,7 +69,7 @@ std::vector<CoverageCell> count(const std::vector<CoverageTrial>& trials,
     for (const CoverageTrial& trial : trials) {
       if (!trial.usable) continue;
       const CoverageTrial::Row& row = row_of(trial);
-      if (!row.cells[c]) continue;
+      if (!row.cells.at(c)) continue;
       const int held = row.cells[c]->held ? 1 : 0;
       ++cell.offered;
       cell.held += held;
@@ -167,7 +167,7 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.unit = model.slots[j].parameter->unit;
     row.truth = truth.theta[j];
     const auto row_of = [free](const CoverageTrial& trial) -> const CoverageTrial::Row& {
-      return trial.parameters[free];
+      return trial.parameters.at(free);
     };
     for (const CoverageTrial& trial : trials) {
       if (trial.usable && row_of(trial).identifiable) ++row.identifiable;
@@ -184,7 +184,7 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
     const auto row_of = [k](const CoverageTrial& trial) -> const CoverageTrial::Row& {
-      return trial.capture[k];
+      return trial.capture.at(k);
     };
     row.actual_error = actual_error(trials, row_of);
     row.cells = count(trials, cell_names<CaptureIntervalKind>(), row_of);

@@ -402,7 +402,7 @@ Json stated_system(const std::filesystem::path& folder) {
       .require("recoil", "it holds the materials",
                "name the folder of a dataset with the same materials")
       .members();
-  Json system = Json::parse(text)["recoil"];
+  Json system = parse_json(text)["recoil"];
   for (const char* own : {"provenance", "conditions", "method", "mixed_sizes"}) system.erase(own);
   return system;
 }

@@ -53,6 +53,7 @@ class PointReader {
     }
     refuse_impossible_sd();
     remark_repeated();
+    remark_tiny();
     name_series();
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
@@ -382,11 +383,28 @@ class PointReader {
     if (point.diameter > limits::unusual_diameter && !balls) {
       add(PointRemark::unusual_diameter, point.line);
     }
+    const auto above_velocity = [&](const std::optional<double>& sd) {
+      return sd.value_or(0.0) > point.incident_velocity;
+    };
+    if (above_velocity(point.velocity_sd) || above_velocity(point.setting_velocity_sd)) {
+      add(PointRemark::error_above_velocity, point.line);
+    }
     if (point.incidence_angle > (1.0 + 1e-12) * limits::usual_incidence_angle) {
       add(PointRemark::oblique, point.line);
       double& largest = warnings_[PointRemark::oblique].largest;
       largest = std::max(largest, point.incidence_angle);
     }
+  }
+
+  /// Values of e that are all tiny are in per cent, or velocities in different units.
+  void remark_tiny() {
+    constexpr double tiny = 0.02;
+    std::vector<int> lines;
+    for (const ImpactPoint& point : dataset_.points) {
+      if (point.restitution > tiny) return;
+      if (point.restitution > 0.0) lines.push_back(point.line);
+    }
+    for (const int line : lines) add(PointRemark::tiny_restitution, line);
   }
 
   /// Repeated drops with one setting may give the same reading; others are remarked.
@@ -493,6 +511,16 @@ bool has_no_point(const std::string& text) {
   return end == std::string::npos || text.find_first_not_of(blank, end) == std::string::npos;
 }
 
+/// Messages quote the points, so that a link must not lead to a file of somebody else.
+void require_inside(const fs::path& file, const fs::path& folder) {
+  std::error_code failed;
+  const fs::path place = fs::weakly_canonical(file, failed);
+  const fs::path inside = fs::relative(place, fs::weakly_canonical(folder, failed), failed);
+  if (failed || *inside.begin() != "..") return;
+  throw InputError({file.string()}, fmt::format("this is a link to {}", place.string()),
+                   "points have to be in the folder of their dataset", "copy the file here");
+}
+
 Dataset load(const fs::path& folder, bool may_lack_points) {
   require_package(folder);
   const fs::path package_file = folder / package_file_name;
@@ -505,6 +533,7 @@ Dataset load(const fs::path& folder, bool may_lack_points) {
     throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
                      "correct the path or add the file");
   }
+  if (!missing) require_inside(points_file, folder);
   std::string bytes = missing ? "" : read_bytes(points_file);
   const auto size = static_cast<double>(bytes.size());
   const bool other_bytes = package.points_bytes.value_or(size) != size ||

@@ -64,6 +64,8 @@ enum class PointRemark {
   unusual_diameter,
   oblique,  ///< farther from the normal than Li, Dunn & Brach (1999) allowed
   repeated,
+  error_above_velocity,  ///< one standard deviation of a velocity is larger than the velocity
+  tiny_restitution,      ///< no e of the dataset is above 0.02
   other_bytes,  ///< the file has not the size or hash that datapackage.json states
 };
 

@@ -6,14 +6,13 @@
 #include <set>
 #include <string_view>
 
+#include "core/json.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
 namespace {
 
 using nlohmann::json;
-
-constexpr int deepest_nesting = 64;
 
 /// Parses objects and lists and records the place of every value. The JSON library parses strings,
 /// numbers and words.
@@ -37,9 +36,9 @@ class Parser {
   void read_value(JsonValue& value, int depth) {
     skip_blanks();
     value.at = at_;
-    if (depth > deepest_nesting) {
+    if (depth > deepest_json) {
       throw InputError(locate(text_, at_, file_), "lists or objects are nested too deeply",
-                       fmt::format("at most {} levels are read", deepest_nesting),
+                       fmt::format("at most {} levels are read", deepest_json),
                        "flatten this part");
     }
     if (peek() == '{' || peek() == '[') {

@@ -122,6 +122,50 @@ constexpr TabledMaterial materials[] = {
     {"zirconia", "3 mol% yttria", 6000.0, 205.0 * GPa, 205.0 * GPa, 0.31},
 };
 
+struct OtherName {
+  std::string_view other;  ///< as `plain_word` writes it
+  std::string_view name;
+};
+
+/// Names that mean the same material.
+constexpr OtherName other_names[] = {
+    {"acrylic", "pmma"},
+    {"acrylicglass", "pmma"},
+    {"aluminiumoxide", "alumina"},
+    {"aluminum", "aluminium"},
+    {"aluminumoxide", "alumina"},
+    {"fusedquartz", "fused-silica"},
+    {"hdpe", "polyethylene"},
+    {"perspex", "pmma"},
+    {"plexiglas", "pmma"},
+    {"plexiglass", "pmma"},
+    {"polymethylmethacrylate", "pmma"},
+    {"polystyrenelatex", "polystyrene"},
+    {"polytetrafluoroethylene", "ptfe"},
+    {"psl", "polystyrene"},
+    {"pyrex", "borosilicate"},
+    {"silica", "fused-silica"},
+    {"sodalime", "glass"},
+    {"sodalimeglass", "glass"},
+    {"stainless304", "stainless"},
+    {"stainlesssteel", "stainless"},
+    {"stainlesssteel304", "stainless"},
+    {"stainlesssteel316", "stainless-316"},
+    {"stainlesssteel440", "stainless-440"},
+    {"teflon", "ptfe"},
+    {"vitreoussilica", "fused-silica"},
+};
+
+/// The material with this name, or with another one that means the same; null for an unknown name.
+const TabledMaterial* find_material(std::string_view name) {
+  std::string plain = plain_word(name);
+  const auto* const other = std::ranges::find(other_names, plain, &OtherName::other);
+  if (other != std::end(other_names)) plain = plain_word(other->name);
+  const auto* const found = std::ranges::find_if(
+      materials, [&](const TabledMaterial& one) { return plain_word(one.name) == plain; });
+  return found == std::end(materials) ? nullptr : found;
+}
+
 }  // namespace
 
 double TabledMaterial::youngs_modulus_sd() const {
@@ -133,13 +177,13 @@ double TabledMaterial::youngs_modulus_sd() const {
 std::span<const TabledMaterial> tabled_materials() { return materials; }
 
 std::string_view source_of_tabled(std::string_view name) {
-  const auto found = std::ranges::find(materials, name, &TabledMaterial::name);
-  return found == std::end(materials) ? std::string_view() : found->source;
+  const TabledMaterial* const found = find_material(name);
+  return found == nullptr ? std::string_view() : found->source;
 }
 
 Json tabled_material(const std::string& name, const std::string& option) {
-  const auto found = std::ranges::find(materials, name, &TabledMaterial::name);
-  if (found == std::end(materials)) {
+  const TabledMaterial* const found = find_material(name);
+  if (found == nullptr) {
     std::vector<std::string> names;
     for (const TabledMaterial& one : materials) names.emplace_back(one.name);
     throw InputError(
@@ -147,7 +191,7 @@ Json tabled_material(const std::string& name, const std::string& option) {
         "recoil materials lists them", did_you_mean(name, names));
   }
   Json json = {
-      {"material", name},
+      {"material", found->name},
       {"density", {{"value", found->density}, {"relative_sd", tabled_density_error}}},
       {"youngs_modulus", {{"value", found->youngs_modulus()}, {"sd", found->youngs_modulus_sd()}}},
       {"poisson_ratio", {{"value", found->poisson_ratio}, {"sd", found->poisson_ratio_sd}}}};

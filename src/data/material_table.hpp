@@ -37,6 +37,8 @@ inline constexpr double tabled_density_error = 0.01;
 
 std::span<const TabledMaterial> tabled_materials();
 
+// Names of materials: blanks, hyphens and case do not count, and "silica" is "fused-silica".
+
 /// The source of the material `name`; empty for an unknown name.
 std::string_view source_of_tabled(std::string_view name);
 

@@ -16,8 +16,8 @@
 namespace recoil {
 namespace {
 
-/// The options for fits of candidates: hundreds of descents, of which only the criterion is needed,
-/// to 0.1. (A tolerance of the parameters would compare steps of very different units.)
+/// The options for descents from several starts, of which the best is followed to its minimum. (A
+/// tolerance of the parameters would compare steps of very different units.)
 LeastSquaresOptions descent() {
   LeastSquaresOptions options;
   options.max_iterations = 100;
@@ -30,12 +30,42 @@ LeastSquaresOptions descent() {
   return options;
 }
 
+/// The options from the end of the best descent to its minimum: the chi-squared there is within
+/// 1e-8 of the least, so that nothing shown depends on the start or on the rounding of a sum.
+LeastSquaresOptions last_descent() {
+  LeastSquaresOptions options = descent();
+  options.function_tolerance = 1e-12;
+  options.close_enough = 1e-4;
+  options.first_radius = 1e4;
+  return options;
+}
+
 /// The options if `descent` does not converge: the trust region of Ceres.
 LeastSquaresOptions careful_descent() {
   LeastSquaresOptions options = descent();
   options.strategies = {Strategy::trust_region};
   options.max_iterations = 500;
   return options;
+}
+
+/// The lowest end of the descents from `starts`; with several, followed to its minimum.
+LeastSquaresResult best_descent(const LeastSquaresProblem& problem,
+                                const std::vector<std::vector<double>>& starts) {
+  const LeastSquaresOptions options = starts.size() > 1 ? descent() : last_descent();
+  LeastSquaresResult best;
+  for (const std::vector<double>& start : starts) {
+    LeastSquaresResult run = minimise(problem, start, options);
+    if (!run.ended() && std::isfinite(run.sum_of_squares)) {
+      run = minimise(problem, run.theta, careful_descent());
+    }
+    if (!run.ended() || !std::isfinite(run.sum_of_squares)) continue;
+    if (!best.ended() || run.sum_of_squares < best.sum_of_squares) best = std::move(run);
+  }
+  if (starts.size() > 1 && best.ended()) {
+    LeastSquaresResult last = minimise(problem, best.theta, last_descent());
+    if (last.ended() && last.sum_of_squares <= best.sum_of_squares) best = std::move(last);
+  }
+  return best;
 }
 
 /// `near`, and copies of it with one parameter of an added mechanism at a start of the catalogue.
@@ -296,39 +326,33 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data, cons
       starts.push_back(std::move(start));
     }
   }
-  Refit best;
-  best.discrepancy = std::move(discrepancy);
-  for (const std::vector<double>& start : starts) {
-    LeastSquaresResult run = minimise(problem, start, descent());
-    if (!run.ended() && std::isfinite(run.sum_of_squares)) {
-      run = minimise(problem, run.theta, careful_descent());
-    }
-    if (!run.ended() || !std::isfinite(run.sum_of_squares)) continue;
-    if (best.usable && run.sum_of_squares >= best.chi2) continue;
-    best.usable = true;
-    best.theta = std::move(run.theta);
-    best.chi2 = run.sum_of_squares;
-    best.residuals = std::move(run.residuals);
-    best.residuals.resize(data.points.size());
-    best.jacobian = std::move(run.jacobian);
-    best.moving.assign(best.theta.size(), false);
-    for (std::size_t j = 0; j < best.theta.size(); ++j) {
-      best.moving[j] = candidate.model.slots[j].free && !run.at_bound[j];
-    }
-    // A material constant counts as moving if the points determine it better than its stated value
-    // does.
-    const std::size_t p = best.theta.size();
-    for (std::size_t k = 0; k < candidate.model.constants.size(); ++k) {
-      const std::size_t j = candidate.model.first_constant() + k;
-      double information = 0.0;
-      for (std::size_t i = 0; i < data.points.size(); ++i) {
-        information += best.jacobian[i * p + j] * best.jacobian[i * p + j];
-      }
-      const double stated_alone = best.jacobian[(data.points.size() + k) * p + j];
-      best.moving[j] = information > stated_alone * stated_alone && !run.at_bound[j];
-    }
+  LeastSquaresResult best = best_descent(problem, starts);
+  Refit refit;
+  refit.discrepancy = std::move(discrepancy);
+  if (!best.ended() || !std::isfinite(best.sum_of_squares)) return refit;
+  refit.usable = true;
+  refit.theta = std::move(best.theta);
+  refit.chi2 = best.sum_of_squares;
+  refit.residuals = std::move(best.residuals);
+  refit.residuals.resize(data.points.size());
+  refit.jacobian = std::move(best.jacobian);
+  refit.moving.assign(refit.theta.size(), false);
+  for (std::size_t j = 0; j < refit.theta.size(); ++j) {
+    refit.moving[j] = candidate.model.slots[j].free && !best.at_bound[j];
   }
-  return best;
+  // A material constant counts as moving if the points determine it better than its stated value
+  // does.
+  const std::size_t p = refit.theta.size();
+  for (std::size_t k = 0; k < candidate.model.constants.size(); ++k) {
+    const std::size_t j = candidate.model.first_constant() + k;
+    double information = 0.0;
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      information += refit.jacobian[i * p + j] * refit.jacobian[i * p + j];
+    }
+    const double stated_alone = refit.jacobian[(data.points.size() + k) * p + j];
+    refit.moving[j] = information > stated_alone * stated_alone && !best.at_bound[j];
+  }
+  return refit;
 }
 
 double corrected_criterion(const Observations& data, double chi2, int free_count) {

@@ -128,6 +128,9 @@ constexpr int fewest_own_designs = 20;
 constexpr double largest_relative_sd = 0.5;
 // Beyond it Student's t equals the normal distribution in practice.
 constexpr double largest_student_dof = 1000.0;
+constexpr double lowest_level = 0.5;
+constexpr double highest_level = 0.9999;  // one of 10,000 replicates is outside
+constexpr double largest_value = 1e9;     // of C_H, C_A [s/m], f0 [N/m] and W [J/m2]
 // A larger shared error of e is refused [1].
 constexpr double largest_setting_sd = 0.3;
 constexpr double largest_law_error = 0.5;
@@ -455,7 +458,12 @@ class FitReader : private TomlReader {
                        entry.lower, entry.upper),
            "choose a value within");
     }
-    if (value >= 0.0) return value;
+    if (value >= 0.0 && value <= largest_value) return value;
+    if (value > 0.0) {
+      fail(node,
+           fmt::format("'{}' of '{}' is {:g}{}", name, entry.name, value, unit_suffix(entry.unit)),
+           "no impact has so much", fmt::format("choose at most {:g}", largest_value));
+    }
     fail(node,
          fmt::format("'{}' of '{}' is {:g}{}", name, entry.name, value, unit_suffix(entry.unit)),
          fmt::format("the {} cannot be negative", entry.meaning), "0 is the lowest value");
@@ -509,8 +517,9 @@ class FitReader : private TomlReader {
     }
     if (const toml::node* node = table.get("level")) {
       spec.level = number(*node, "level");
-      if (spec.level <= 0.0 || spec.level >= 1.0) {
-        fail(*node, fmt::format("level = {:g}", spec.level), "it has to lie between 0 and 1",
+      if (spec.level < lowest_level || spec.level > highest_level) {
+        fail(*node, fmt::format("level = {:g}", spec.level),
+             fmt::format("it has to lie between {:g} and {:g}", lowest_level, highest_level),
              spec.level > 1.0 && spec.level < 100.0
                  ? fmt::format("{:g} % is written {:g}", spec.level, spec.level / 100.0)
                  : std::string("0.95 is usual"));

@@ -59,15 +59,25 @@ std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
   return edges;
 }
 
+/// Fewer impacts at one velocity are no bin, and each is a point.
+std::size_t least_in_bin(std::size_t per_bin) { return std::min<std::size_t>(5, per_bin); }
+
 /// The first indices of the bins of sorted velocities, and the number of velocities at the end.
 /// @param error relative standard deviation of one velocity
 std::vector<std::size_t> cuts(std::span<const Arrival> sorted, std::size_t per_bin, double error) {
   constexpr double widest_gap = 4.0;     // errors
+  constexpr double emptiness = 2.0;      // spans of the nearest velocities on both sides
   constexpr double narrowest_bin = 6.0;  // errors
+  const auto span_of = [&](std::size_t from, std::size_t to) {
+    return std::log(sorted[to].velocity / sorted[from].velocity);
+  };
+  const std::size_t near = least_in_bin(per_bin);
   std::vector<std::size_t> parts = {0};
   for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const double gap = std::log(sorted[i].velocity / sorted[i - 1].velocity);
-    if (gap > widest_gap * error && i - parts.back() >= 3) parts.push_back(i);
+    const double gap = span_of(i - 1, i);
+    const double around =
+        span_of(i - std::min(i, near), i - 1) + span_of(i, std::min(i + near, sorted.size()) - 1);
+    if (gap > widest_gap * error && gap > emptiness * around) parts.push_back(i);
   }
   parts.push_back(sorted.size());
   std::vector<std::size_t> begins;
@@ -209,14 +219,21 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
     const std::vector<std::size_t> begins = cuts(group, options.per_bin, pairs.velocity_spread);
     for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
       const std::span<const Arrival> bin = group.subspan(begins[k], begins[k + 1] - begins[k]);
-      if (bin.size() < std::min<std::size_t>(5, options.per_bin)) {
-        result.in_small_bins += bin.size();
+      const auto add = [&](PointMean point) {
+        if (options.mean_diameter) point.diameter = all_sizes;
+        point.series = series_name(series[group.front().series], edges, group.front().size_class);
+        result.points.push_back(std::move(point));
+      };
+      if (bin.size() >= least_in_bin(options.per_bin)) {
+        add(mean_of(bin));
         continue;
       }
-      PointMean point = mean_of(bin);
-      if (options.mean_diameter) point.diameter = all_sizes;
-      point.series = series_name(series[group.front().series], edges, group.front().size_class);
-      result.points.push_back(std::move(point));
+      for (std::size_t i = 0; i < bin.size(); ++i) {
+        const bool rebound = bin[i].restitution >= 0.0;
+        if (rebound) add(mean_of(bin.subspan(i, 1)));
+        ++(rebound ? result.single : result.unpaired);
+        result.came_back += bin[i].came_back ? 1 : 0;
+      }
     }
   }
   for (PointMean& point : result.points) {

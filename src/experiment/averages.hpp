@@ -49,7 +49,8 @@ struct Averages {
   std::size_t captured = 0;
   double unresolved = 0.0;        ///< other unpaired: an excess that is not significant
   double narrowest = 0.0;         ///< least ln of the ratio of velocities within a bin [1]
-  std::size_t in_small_bins = 0;  ///< impacts left out in bins of fewer than 5 (or `per_bin`)
+  std::size_t single = 0;         ///< impacts with fewer than 5 (or `per_bin`) at their velocity:
+                                  ///< each is a point
   double lost_share = 0.0;        ///< share of rebounds not detected [1]: stated or `missed_share`
   double fast_unpaired = 0.0;     ///< share of unpaired among the fastest quarter [1]
   std::size_t fast_impacts = 0;   ///< in that quarter
@@ -57,9 +58,11 @@ struct Averages {
 };
 
 /// Sorts the used impacts and unpaired passages of each series and size class by incident velocity.
-/// Divides them at gaps wider than 4 standard deviations of a velocity's error (drop heights), and
-/// each part into bins of about `per_bin` impacts that are at least 6 such deviations wide. Finer
-/// bins would sort by the errors, which are anticorrelated with e = V_rebound / V.
+/// Divides them at gaps (drop heights) that are wider than 4 standard deviations of a velocity's
+/// error and than twice the span of the 5 nearest velocities on both sides, which a gap of
+/// continuous velocities is with a probability of 3^-8. Divides each part into bins of about
+/// `per_bin` impacts that are at least 6 such deviations wide. Finer bins would sort by the errors,
+/// which are anticorrelated with e = V_rebound / V.
 ///
 /// With n detected rebounds and the lost share s, n s / (1 - s) more are expected undetected. The
 /// expected number of rebounds too slow to return (below sqrt(2 g h) at the surface) follows from a

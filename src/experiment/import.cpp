@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <tuple>
+#include <utility>
 
 #include "core/files.hpp"
 #include "data/contact.hpp"
 #include "experiment/import_formats.hpp"
+#include "experiment/import_programs.hpp"
 #include "experiment/import_table.hpp"
-#include "experiment/recording.hpp"
 
 namespace recoil {
 namespace {
@@ -144,16 +147,51 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
   return read_columns(request, units);
 }
 
-/// Makes a table of the instants of a recording, with their error unless the request states one.
-void listen(ImportRequest& request, std::vector<ImportNote>& notes) {
-  const HeardImpacts heard =
-      hear_impacts(request.text ? *request.text : read_bytes(request.file), request.file.string());
-  request.text = heard.table;
-  request.map.emplace_back("time=time:s");
-  ImportNote note{ImportRemark::impacts_heard, {}, heard.count};
-  note.time_sd = heard.time_sd;
-  notes.push_back(note);
-  if (request.time_error.empty()) request.time_error = fmt::format("{:.9g}s", heard.time_sd);
+/// Joins a note with an earlier one of the same kind.
+void join_note(const ImportNote& note, ImportNote& earlier) {
+  for (const std::string& name : note.names) {
+    if (std::ranges::find(earlier.names, name) == earlier.names.end()) {
+      earlier.names.push_back(name);
+    }
+  }
+  earlier.count += note.count;
+  earlier.releases.insert(earlier.releases.end(), note.releases.begin(), note.releases.end());
+  AirShare& air = earlier.air;
+  if (note.air.slow < air.slow) {
+    std::tie(air.slow, air.slow_share) = std::pair(note.air.slow, note.air.slow_share);
+  }
+  if (note.air.fast > air.fast) {
+    std::tie(air.fast, air.fast_share) = std::pair(note.air.fast, note.air.fast_share);
+  }
+  air.reynolds = std::max(air.reynolds, note.air.reynolds);
+}
+
+/// Reads the parts of a request, which are launches if there are several.
+ImportedPoints read_parts(const std::vector<ImportPart>& parts, const Json& system,
+                          const FieldUnits& units) {
+  ImportedPoints all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    ImportedPoints own = read_points_of(parts[k].request, system, units);
+    if (parts.size() == 1) return own;
+    const bool one_launch = std::ranges::all_of(own.points, [&](const ImportedPoint& point) {
+      return point.launch == own.points.front().launch;
+    });
+    for (ImportedPoint& point : own.points) {
+      point.part = k;
+      const bool timed = !point.launch.empty();
+      if (timed) point.launch = parts[k].launch + (one_launch ? "" : "/" + point.launch);
+    }
+    std::ranges::move(own.points, std::back_inserter(all.points));
+    for (ImportNote& note : own.notes) {
+      const auto earlier = std::ranges::find(all.notes, note.remark, &ImportNote::remark);
+      if (earlier == all.notes.end()) {
+        all.notes.push_back(std::move(note));
+      } else {
+        join_note(note, *earlier);
+      }
+    }
+  }
+  return all;
 }
 
 /// Adds the scatter of the experiment to the errors of the readings.
@@ -171,14 +209,16 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
 
 /// Throws `error`, which is about the dataset to be written, with the line of the imported file
 /// instead.
-[[noreturn]] void fail_in_source(const InputError& error, const ImportRequest& request,
+[[noreturn]] void fail_in_source(const InputError& error, const std::vector<ImportPart>& parts,
                                  const fs::path& points_file,
                                  const std::vector<ImportedPoint>& points) {
   const Location& at = error.where();
+  const auto file_of = [&](std::size_t part) { return parts[part].request.file.string(); };
   // Errors of materials have no place in the imported file.
-  Location place{at.file == points_file.string() ? request.file.string() : std::string()};
+  Location place{at.file == points_file.string() ? file_of(0) : std::string()};
   const auto row = static_cast<std::size_t>(at.line) - 2;
   if (at.file == points_file.string() && at.line >= 2 && row < points.size()) {
+    place.file = file_of(points[row].part);
     place.line = points[row].line;
     place.column = 1;
   }
@@ -257,12 +297,10 @@ bool adhesion_is_negligible(const ImportRequest& request, const Json& system,
 
 }  // namespace
 
-ImportResult import_points(const ImportRequest& asked) {
-  refuse_existing(asked);
-  ImportRequest request = asked;
+ImportResult import_points(const ImportRequest& request) {
+  refuse_existing(request);
   std::vector<ImportNote> notes;
-  if (request.format == ImportFormat::recording) listen(request, notes);
-  if (!request.text) request.text = table_text(request, notes);  // before options are missed
+  const std::vector<ImportPart> parts = import_parts(request, notes);  // before options are missed
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   const FieldUnits units = existing              ? existing->units
@@ -270,7 +308,12 @@ ImportResult import_points(const ImportRequest& asked) {
                                                  : FieldUnits();
   ImportResult result;
   Json system = imported_system(request, existing, result.notes);
-  ImportedPoints imported = read_points_of(request, system, units);
+  ImportedPoints imported = read_parts(parts, system, units);
+  if (imported.points.empty() && request.format == ImportFormat::track) {
+    throw InputError({request.file.string()}, "no impact was found in these tracks",
+                     "it needs a minimum with 4 samples of free flight on either side",
+                     "check the columns in --map, or film with more frames per second");
+  }
   resolve_diameters(request, imported);
   add_scatter(request, imported.points);
 
@@ -282,7 +325,7 @@ ImportResult import_points(const ImportRequest& asked) {
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);
   } catch (const InputError& error) {
-    fail_in_source(error, request, points_file, imported.points);
+    fail_in_source(error, parts, points_file, imported.points);
   }
   if (adhesion_is_negligible(request, system, result.dataset)) {
     system["adhesion_energy"] = 0.0;

@@ -32,12 +32,13 @@ constexpr auto names_of_values(ImportFormat) {
 /// in um if it is a diameter, otherwise in the SI unit. One member for each option of the command.
 struct ImportRequest {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> more_files;  ///< each is another launch
   std::optional<std::string> text;  ///< the content to import instead of reading `file`
   ImportFormat format = ImportFormat::csv;
   std::filesystem::path into;  ///< the dataset's folder
   bool replace = false;        ///< replace the points of the dataset in the folder
 
-  std::string sheet;         ///< of a workbook; empty: the first
+  std::string sheet;         ///< name or number, from 1, in a workbook; empty: the first
   bool usual_units = false;  ///< columns without a unit are in um, m/s and SI units
 
   std::vector<std::string> map;  ///< "quantity=column:unit"
@@ -78,6 +79,8 @@ struct ImportRequest {
 enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
   sheet_read,            ///< `names`: the sheet of a workbook, and those that were not read
+  columns_known,         ///< `names`: "time = t [s]": columns of a program that names them so
+  decimal_commas,        ///< the numbers have decimal commas, though none was stated
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a needed cell is empty
   signed_velocities,     ///< velocities were signed; their magnitudes were taken
@@ -104,6 +107,7 @@ enum class ImportRemark {
   frames_repeated,         ///< tracks: `count` frames show the one before again
   frames_mended,           ///< tracks: `count` rows are not one frame after the row before
   impacts_heard,           ///< recording: `count` impacts, with the error `time_sd` of an instant
+  tracks_without_impact,   ///< `names`: launches or files
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,

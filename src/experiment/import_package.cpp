@@ -26,8 +26,8 @@ std::string source_name(const ImportRequest& request) {
   return descriptor_named(request.file) ? "a pipe" : request.file.filename().string();
 }
 
-Json parse_json(const std::string& text, const std::filesystem::path& file) {
-  Json json = Json::parse(text, nullptr, false);
+Json parse_object(const std::string& text, const std::filesystem::path& file) {
+  Json json = parse_json(text);
   if (!json.is_object()) {
     throw InputError({file.string()}, "this is not a JSON object", "",
                      "write {\"material\": ..., \"youngs_modulus\": ..., ...}");
@@ -56,7 +56,7 @@ constexpr MaterialConstant constants[] = {{"density", Dimension::density},
 Json material(const std::string& words, const std::string& option) {
   std::error_code failed;
   if (std::filesystem::exists(words, failed) || words.ends_with(".json")) {
-    return parse_json(read_text_file(words), words);
+    return parse_object(read_text_file(words), words);
   }
   Json json;
   std::vector<std::string> parts = split_list(words);
@@ -243,7 +243,7 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
   const std::string text = read_text_file(file);
   const Package package = read_package(text, file.string(), name_for(folder));
   ExistingPackage existing;
-  existing.json = parse_json(text, file);
+  existing.json = parse_object(text, file);
   existing.provenance = package.provenance;
   existing.points_path = package.points_path;
   for (const Column& column : package.columns) existing.units[column.name] = column.unit;

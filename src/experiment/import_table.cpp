@@ -12,6 +12,7 @@
 
 #include "core/files.hpp"
 #include "data/text.hpp"
+#include "experiment/column_names.hpp"
 #include "experiment/recording.hpp"
 #include "experiment/workbook.hpp"
 
@@ -43,14 +44,6 @@ std::optional<double> diameter_in_name(const std::string& series) {
   return number && factor ? std::optional<double>(*number * *factor) : std::nullopt;
 }
 
-/// The unit in "V [cm/s]" or "V (cm/s)".
-std::string unit_in_brackets(const std::string& name) {
-  const std::size_t open = name.find_last_of("[(");
-  const std::size_t close = name.find_last_of("])");
-  if (open == std::string::npos || close == std::string::npos || close < open) return "";
-  return name.substr(open + 1, close - open - 1);
-}
-
 /// True if the text of a cell means that its value is not known.
 bool is_unknown(const std::string& text) {
   static const std::set<std::string> words = {"",    "-",   "–",   "NA",   "N/A",  "n/a", "#N/A",
@@ -67,20 +60,6 @@ std::pair<std::string, std::string> value_and_error(const std::string& text) {
             std::string(trimmed(std::string_view(text).substr(at + mark.size())))};
   }
   return {text, ""};
-}
-
-/// Is `header`, without a unit in brackets, a usual name of `quantity` in tables of others?
-bool is_other_name(const std::string& header, const std::string& quantity) {
-  static const std::multimap<std::string, std::string> others = {
-      {"incidence_angle", "angle"},
-      {"incidence_angle", "incidence angle"},
-      {"incidence_angle", "incident angle"},
-      {"incidence_angle", "angle of incidence"},
-      {"tangential_restitution", "tangential restitution"}};
-  std::string name(trimmed(std::string_view(header).substr(0, header.find_first_of("[("))));
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto [first, last] = others.equal_range(quantity);
-  return std::any_of(first, last, [&](const auto& other) { return other.second == name; });
 }
 
 /// The name of the quantity that is the standard deviation of `quantity`.
@@ -365,9 +344,10 @@ NumberFormat number_format(const ImportRequest& request) {
   return {request.decimal_comma ? "," : "."};
 }
 
-std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
+std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes,
+                       std::uintmax_t max_bytes) {
   const std::string file = request.file.string();
-  std::string bytes = read_bytes(request.file);
+  std::string bytes = read_bytes(request.file, max_bytes);
   if (is_workbook(bytes)) {
     Sheet sheet = read_sheet(bytes, file, request.sheet, request.decimal_comma ? ',' : '.');
     ImportNote note{ImportRemark::sheet_read, {sheet.name}};
@@ -379,8 +359,8 @@ std::string table_text(const ImportRequest& request, std::vector<ImportNote>& no
     throw InputError({file}, "this is a recording, not a table", "", "write --format recording");
   }
   if (!request.sheet.empty()) {
-    throw InputError({file}, "--sheet, but this is not a workbook", "recoil reads .xlsx and .ods",
-                     "leave the option out");
+    throw InputError({file}, "--sheet, but this is not a workbook",
+                     "recoil reads .xlsx, .ods and .xls", "leave the option out");
   }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
     throw InputError({file}, "this file is in UTF-16", "recoil reads UTF-8",
@@ -471,18 +451,28 @@ void ImportTable::read_header() {
 
 /// Assigns columns that have the name of a quantity, or another name of it.
 void ImportTable::find_columns_by_name() {
+  const std::vector<std::string> header = header_names();
+  std::vector<std::string> units;
+  for (const CsvField& cell : units_) units.push_back(without_brackets(cell.text));
   for (const ImportQuantity& quantity : known_) {
-    auto cell = std::ranges::find_if(header_, [&](const CsvField& c) {
-      return c.text.substr(0, c.text.find_first_of(" [(")) == quantity.name;
-    });
-    if (cell == header_.end()) {
-      cell = std::ranges::find_if(
-          header_, [&](const CsvField& c) { return is_other_name(c.text, quantity.name); });
-    }
-    if (cell != header_.end() && !has(quantity.name)) {
-      read_map(fmt::format("{}=\"{}\"", quantity.name, cell->text));
-    }
+    const bool known_otherwise = (quantity.name == "restitution" && has("rebound_velocity")) ||
+                                 (quantity.name == "rebound_velocity" && has("restitution"));
+    if (has(quantity.name)) continue;
+    std::vector<std::size_t> at = columns_of(quantity.name, quantity.dimension, header, units);
+    if (at.empty()) continue;
+    const bool own = header[at.front()].starts_with(quantity.name);
+    if (!own) std::erase_if(at, [&](std::size_t i) { return known_otherwise || is_used(i); });
+    const bool one = std::ranges::all_of(
+        at, [&](std::size_t i) { return own || header[i] == header[at.front()]; });
+    if (at.empty() || !one) continue;
+    read_map(fmt::format("{}=\"{}\"", quantity.name, header[at.front()]));
   }
+}
+
+bool ImportTable::is_used(std::size_t column) const {
+  return std::ranges::any_of(columns_, [&](const auto& entry) {
+    return std::ranges::find(entry.second.at, column) != entry.second.at.end();
+  });
 }
 
 /// Checks that all quantities with several columns have the same number of columns.
@@ -597,6 +587,13 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
   const auto usual = field_units_.find(quantity.name);
   if (name.empty() && cell.text == quantity.name && usual != field_units_.end()) {
     name = usual->second;
+  }
+  const auto in_header = unit_factor(quantity.dimension, unit_in_brackets(cell.text));
+  const auto in_map = unit_factor(quantity.dimension, unit);
+  if (in_header && in_map && *in_header != *in_map) {
+    throw InputError(cell.in(file_), fmt::format("--map {} states {}", quantity.name, quote(unit)),
+                     fmt::format("the header states {}", quote(unit_in_brackets(cell.text))),
+                     "leave the unit out of --map, or correct the header");
   }
   // "0.35mm", or a factor to SI: "0.0254"
   const auto factor = number_and_unit(name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -52,6 +53,7 @@ struct ImportedPoint {
   std::string launch;                               ///< of timed bounces; empty: none
   PerValue<Quantity, std::optional<double>> value;  ///< of all quantities except texts
   int line = 0;                                     ///< in the file
+  std::size_t part = 0;                             ///< index of the file, if there are several
 
   /// e, from the rebound velocity if that is given; nullopt if all were captured.
   std::optional<double> restitution() const;
@@ -87,10 +89,11 @@ NumberFormat number_format(const ImportRequest& request);
 /// @throws InputError if the file has no rows
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes);
 
-/// The text of the request's file in UTF-8. A file in another encoding is read as Windows-1252. A
-/// sheet of a workbook becomes a table separated by tabs.
+/// The text of the request's file of at most `max_bytes` in UTF-8. A file in another encoding is
+/// read as Windows-1252. A sheet of a workbook becomes a table separated by tabs.
 /// @throws InputError as `read_bytes` and `read_sheet`, and for UTF-16
-std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes);
+std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes,
+                       std::uintmax_t max_bytes = 256ULL << 20);
 
 struct ImportQuantity {
   std::string name;  ///< left of '=' in --map
@@ -159,6 +162,7 @@ class ImportTable {
   void read_header();
   void read_map(const std::string& entry);
   void find_columns_by_name();
+  bool is_used(std::size_t column) const;
   void resolve_replicates();
   std::vector<std::string> header_names() const;
   std::size_t column_named(const std::string& name) const;

@@ -14,6 +14,8 @@
 #include "data/datapackage.hpp"
 #include "data/quantity.hpp"
 #include "data/text.hpp"
+#include "experiment/column_names.hpp"
+#include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {
@@ -82,6 +84,7 @@ Stated read_stated(const std::string& package_text, const std::string& file) {
   return stated;
 }
 
+/// @throws InputError for an option about a field that does not exist
 void require_fields(const std::map<std::string, std::string>& given, const std::string& option) {
   std::vector<std::string> names;
   for (const Field& field : fields) names.emplace_back(field.name);
@@ -93,13 +96,27 @@ void require_fields(const std::map<std::string, std::string>& given, const std::
   }
 }
 
-/// Assigns columns of the header to fields, by --column or by the field's name. The unit is that of
-/// --unit, or else that of the data package.
-std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
-                                      const std::string& package_text, const PassageFormat& format,
-                                      PassageTable& table) {
-  require_fields(format.units, "--unit");
-  require_fields(format.columns, "--column");
+/// The line that names the columns.
+struct Header {
+  int line = 1;
+  char delimiter = ',';
+  std::vector<std::string> names;
+};
+
+/// The places of the columns that a field may mean, by --column or by a name that `columns_of`
+/// knows.
+std::vector<std::size_t> places_of(const Field& field, const std::vector<std::string>& header,
+                                   const PassageFormat& format) {
+  const std::string name(field.name);
+  const auto renamed = format.columns.find(name);
+  if (renamed == format.columns.end()) return columns_of(name, field.dimension, header);
+  return columns_of(renamed->second, field.dimension, header);
+}
+
+/// Assigns columns of the header to fields. The unit is that of --unit, or else of the header, or
+/// else of the data package.
+std::vector<FieldColumn> find_columns(const Header& header, const std::string& package_text,
+                                      const PassageFormat& format, PassageTable& table) {
   const Stated stated = read_stated(package_text, table.file);
   table.provenance = stated.provenance;
   std::vector<FieldColumn> columns;
@@ -107,38 +124,50 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
     const std::string name(field.name);
     const auto renamed = format.columns.find(name);
     const std::string& wanted = renamed != format.columns.end() ? renamed->second : name;
-    const auto found = std::ranges::find(header, wanted);
-    if (found == header.end()) {
+    const std::vector<std::size_t> found = places_of(field, header.names, format);
+    if (found.empty()) {
       if (!field.needed && renamed == format.columns.end()) continue;
-      throw InputError({table.file, 1, 1}, fmt::format("there is no column {}", quote(wanted)),
-                       fmt::format("the columns are {}", listed(header)),
+      throw InputError({table.file, header.line, 1},
+                       fmt::format("there is no column {}", quote(wanted)),
+                       fmt::format("the columns are {}", listed(header.names)),
                        fmt::format("name it with --column {}=NAME", name));
     }
-    FieldColumn column{&field, static_cast<std::size_t>(found - header.begin())};
-    const Location place = {table.file, 1, static_cast<int>(column.index) + 1};
-    if (std::find(found + 1, header.end(), wanted) != header.end()) {
-      throw InputError(place, fmt::format("two columns are called {}", quote(wanted)), "",
-                       "rename one");
+    const std::string& title = header.names[found.front()];
+    if (found.size() > 1) {
+      std::vector<std::string> meant;
+      for (const std::size_t i : found) meant.push_back(header.names[i]);
+      const bool same = std::ranges::count(meant, title) > 1;
+      throw InputError({table.file, header.line, static_cast<int>(found.front()) + 1},
+                       same ? fmt::format("two columns are called {}", quote(title))
+                            : fmt::format("several columns may be the {}", name),
+                       same ? "" : listed(meant),
+                       same ? "rename one"
+                            : fmt::format("name it with --column {}={}", name, shell_word(title)));
     }
+    FieldColumn column{&field, found.front()};
+    const Location place = {table.file, header.line, static_cast<int>(column.index) + 1};
     if (field.dimension != Dimension::text) {
-      const bool by_option = format.units.contains(name);
-      if (!by_option && !stated.units.contains(wanted)) {
+      const auto by_option = format.units.find(name);
+      const auto by_package = stated.units.find(title);
+      std::string unit = by_option != format.units.end() ? by_option->second : std::string();
+      if (unit.empty()) unit = unit_in_brackets(title);
+      if (unit.empty() && by_package != stated.units.end()) unit = by_package->second;
+      if (unit.empty()) {
         throw InputError(
             place, fmt::format("the unit of '{}' is not known", name),
             stated.found ? "datapackage.json beside the file states none"
-                         : "there is no datapackage.json beside the file that lists it",
+                         : "neither the header nor a datapackage.json beside the file states it",
             fmt::format("give --unit {}={}", name, fmt::join(unit_names(field.dimension), "|")));
       }
-      const std::string& unit = by_option ? format.units.at(name) : stated.units.at(wanted);
       column.factor = known_scale(field.dimension, unit, fmt::format("'{}'", name), place).factor;
       table.units.push_back({name, unit});
       table.has_tangential = table.has_tangential || field.place == &Passage::tangential;
     }
     columns.push_back(column);
   }
-  for (std::size_t i = 0; i < header.size(); ++i) {
+  for (std::size_t i = 0; i < header.names.size(); ++i) {
     const bool used = std::ranges::find(columns, i, &FieldColumn::index) != columns.end();
-    if (!used) table.ignored.push_back(printable(header[i]));
+    if (!used) table.ignored.push_back(printable(header.names[i]));
   }
   return columns;
 }
@@ -147,8 +176,13 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
 class PassageReader {
  public:
   PassageReader(PassageTable& table, std::vector<FieldColumn> columns, std::size_t width,
-                double sign)
-      : table_(table), columns_(std::move(columns)), width_(width), sign_(sign) {}
+                const NumberFormat& numbers, double sign)
+      : table_(table),
+        columns_(std::move(columns)),
+        width_(width),
+        numbers_(numbers),
+        points_(numbers.decimal == "."),
+        sign_(sign) {}
 
   void read_row(const std::vector<std::string_view>& cells, int line) {
     ++table_.rows;
@@ -169,7 +203,10 @@ class PassageReader {
  private:
   /// @returns the problem of the row, empty if there is none.
   std::string read_passage(const std::vector<std::string_view>& cells, Passage& passage) {
-    if (cells.size() != width_) {
+    const bool more =
+        std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(width_, cells.size())),
+                    cells.end(), [](std::string_view cell) { return !cell.empty(); });
+    if (cells.size() < width_ || more) {
       return fmt::format("{} cells, the header has {}", cells.size(), width_);
     }
     std::string_view series = "all";
@@ -179,7 +216,8 @@ class PassageReader {
         series = cell;
         continue;
       }
-      const std::optional<double> value = parse_number(cell);
+      const std::optional<double> value =
+          points_ ? parse_number(cell) : parse_number(cell, numbers_);
       if (!value) {
         return fmt::format("{} is {}", column.field->name,
                            cell.empty() ? std::string("empty") : quote(printable(cell)));
@@ -220,6 +258,8 @@ class PassageReader {
   PassageTable& table_;
   std::vector<FieldColumn> columns_;
   std::size_t width_;
+  NumberFormat numbers_;
+  bool points_;  ///< decimal points, which are faster to read
   double sign_;
   std::vector<double> latest_;  ///< of each series [s]
   std::map<std::string, std::size_t> index_;
@@ -258,9 +298,98 @@ void require_usable(const PassageTable& table) {
   }
   if (2 * table.damaged <= table.rows) return;
   const BadRow& first = table.first_damaged.front();
-  throw InputError({table.file, first.line, 1}, first.problem,
-                   fmt::format("{} of {} rows cannot be used", table.damaged, table.rows),
-                   "check the delimiter and the units, and that decimals have a point");
+  throw InputError(
+      {table.file, first.line, 1}, first.problem,
+      fmt::format("{} of {} rows cannot be used", table.damaged, table.rows),
+      "check the delimiter and the units; --decimal-comma reads 2,5 as two and a half");
+}
+
+/// Calls `on_line` with each line that is not blank, its number and the place of its end, until
+/// that returns false.
+template <class OnLine>
+void each_line(std::string_view text, std::size_t from, int first, const OnLine& on_line) {
+  for (int line = first; from < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    const std::string_view content = text.substr(from, end - from);
+    from = end + 1;
+    if (content.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (!on_line(content, line, from)) return;
+  }
+}
+
+/// The line of column names: the first with all needed fields, or else the first without a number
+/// above a line of as many cells with a number, or else the first.
+/// @param[out] rest where the next line begins
+Header find_header(const std::string& text, const std::string& file, const PassageFormat& format,
+                   std::size_t& rest) {
+  constexpr int most_above = 100;  // lines
+  struct Candidate {
+    Header header;
+    std::size_t rest = 0;
+  };
+  std::optional<Candidate> first;
+  std::optional<Candidate> plain;
+  std::optional<Candidate> named;
+  std::map<char, Candidate> before;  // without a number, by delimiter
+  std::vector<std::string_view> cells;
+  each_line(text, 0, 1, [&](std::string_view content, int line, std::size_t next) {
+    if (line > most_above) return false;
+    for (const char delimiter : {'\t', ';', ','}) {
+      split(content, delimiter, cells);
+      while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
+      Candidate here{{line, delimiter, {cells.begin(), cells.end()}}, next};
+      const bool numbers = std::ranges::any_of(cells, [](std::string_view cell) {
+        return parse_number(cell) || parse_number(cell, {","});
+      });
+      const auto above = before.find(delimiter);
+      if (numbers && !plain && cells.size() > 1 && above != before.end() &&
+          above->second.header.names.size() == cells.size()) {
+        plain = above->second;
+      }
+      before.erase(delimiter);
+      if (!numbers) before.emplace(delimiter, here);
+      if (!first && delimiter == delimiter_of(content)) first = here;
+      const bool all = std::ranges::all_of(fields, [&](const Field& field) {
+        return !field.needed || !places_of(field, here.header.names, format).empty();
+      });
+      if (all) {
+        named = here;
+        return false;
+      }
+    }
+    return true;
+  });
+  const auto found = named ? named : plain ? plain : first;
+  if (!found) {
+    throw InputError({file, 1, 1}, "the file is empty", "",
+                     "begin with a line that names the columns: time,velocity,diameter");
+  }
+  rest = found->rest;
+  for (const std::string& name : found->header.names) require_text(name, file);
+  return found->header;
+}
+
+/// True if the numbers of the first rows have decimal commas: no point, and a comma that does not
+/// group thousands.
+bool has_decimal_commas(const std::string& text, std::size_t from, const Header& header,
+                        const std::vector<FieldColumn>& columns) {
+  constexpr int rows = 200;
+  bool comma = false;
+  bool point = false;
+  std::vector<std::string_view> cells;
+  each_line(text, from, 0, [&](std::string_view content, int line, std::size_t) {
+    split(content, header.delimiter, cells);
+    for (const FieldColumn& column : columns) {
+      if (column.field->place == nullptr || column.index >= cells.size()) continue;
+      const std::string_view cell = cells[column.index];
+      const std::size_t at = cell.find(',');
+      point = point || cell.find('.') != std::string_view::npos;
+      const bool threes = at != std::string_view::npos && cell.size() == at + 4;
+      comma = comma || (at != std::string_view::npos && !threes && parse_number(cell, {","}));
+    }
+    return line < rows;
+  });
+  return comma && !point && header.delimiter != ',';
 }
 
 }  // namespace
@@ -269,42 +398,42 @@ PassageTable parse_passages(const std::string& text, const std::string& file,
                             const std::string& package_text, const PassageFormat& format) {
   PassageTable table;
   table.file = file;
-  std::string_view rest = text;
+  require_fields(format.units, "--unit");
+  require_fields(format.columns, "--column");
+  std::size_t rest = 0;
+  const Header header = find_header(text, file, format, rest);
+  if (header.line > 1) {
+    table.notes.push_back(
+        {ImportRemark::lines_skipped, {fmt::format("lines 1 to {}", header.line - 1)}});
+  }
+  const std::vector<FieldColumn> columns = find_columns(header, package_text, format, table);
+  const bool commas = format.decimal_comma || has_decimal_commas(text, rest, header, columns);
+  if (commas && !format.decimal_comma) table.notes.push_back({ImportRemark::decimal_commas});
+  PassageReader reader(table, columns, header.names.size(), {commas ? "," : "."},
+                       format.positive_away ? -1.0 : 1.0);
   std::vector<std::string_view> cells;
-  std::optional<PassageReader> reader;
-  char delimiter = ',';
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view content = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (content.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    if (!reader) {
-      require_text(content, file);
-      delimiter = delimiter_of(content);
-      split(content, delimiter, cells);
-      const std::vector<std::string> header(cells.begin(), cells.end());
-      reader.emplace(table, find_columns(header, package_text, format, table), header.size(),
-                     format.positive_away ? -1.0 : 1.0);
-      continue;
-    }
-    split(content, delimiter, cells);
-    reader->read_row(cells, line);
-  }
-  if (!reader) {
-    throw InputError({file, 1, 1}, "the file is empty", "",
-                     "begin with a line that names the columns: time,velocity,diameter");
-  }
+  each_line(text, rest, header.line + 1, [&](std::string_view content, int line, std::size_t) {
+    split(content, header.delimiter, cells);
+    reader.read_row(cells, line);
+    return true;
+  });
   require_usable(table);
   sort_and_unite(table);
   return table;
 }
 
 PassageTable read_passages(const std::filesystem::path& path, const PassageFormat& format) {
-  const std::string text = read_text_file(path, largest_file);
+  ImportRequest request;
+  request.file = path;
+  request.decimal_comma = format.decimal_comma;
+  std::vector<ImportNote> notes;
+  const std::string text = table_text(request, notes, largest_file);
   const std::filesystem::path package = path.parent_path() / package_file_name;
   const std::string package_text =
       std::filesystem::is_regular_file(package) ? read_text_file(package) : std::string();
-  return parse_passages(text, path.string(), package_text, format);
+  PassageTable table = parse_passages(text, path.string(), package_text, format);
+  table.notes.insert(table.notes.begin(), notes.begin(), notes.end());
+  return table;
 }
 
 }  // namespace recoil

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/dataset.hpp"
+#include "experiment/import.hpp"
 
 namespace recoil {
 
@@ -49,23 +50,27 @@ struct PassageTable {
   std::vector<std::string> ignored;      ///< names of columns that are not used
   std::optional<Provenance> provenance;  ///< from the data package
   std::vector<FieldUnit> units;          ///< of the fields that were read
+  std::vector<ImportNote> notes;         ///< what was skipped above the header, or assumed
 };
 
 inline constexpr std::size_t most_examples = 3;
 
 struct PassageFormat {
-  /// Units by field (time, velocity, tangential_velocity, diameter, series). They override the data
-  /// package.
+  /// Units by field (time, velocity, tangential_velocity, diameter, series). They override the
+  /// header, which overrides the data package.
   std::map<std::string, std::string> units;
   std::map<std::string, std::string> columns;  ///< names of columns in the file, by field
   bool positive_away = false;                  ///< velocities away from the surface are positive
+  bool decimal_comma = false;                  ///< numbers are written 2,5
 };
 
-/// Reads the passages of `path`. Units are those of `format`, or else of the resource with this
-/// name in `datapackage.json` beside the file. Damaged and repeated rows are left out and counted,
-/// and rows are sorted. Reads 1e6 rows in about a second.
-/// @throws InputError if the file cannot be read, a column or a unit is missing, or most rows are
-///   damaged (a wrong separator, decimal commas)
+/// Reads the passages of `path`, as `table_text` does. Units are those of `format`, or else of the
+/// header ("AT [ms]"), or else of the resource with this name in `datapackage.json` beside the
+/// file. The header is the first line with the needed columns, by a name of `columns_of`. Decimal
+/// commas are recognised where commas do not separate cells and cannot group thousands. Damaged and
+/// repeated rows are left out and counted, and rows are sorted. Reads 1e6 rows in about a second.
+/// @throws InputError if the file cannot be read, a column or a unit is missing, several columns
+///   could be meant, or most rows are damaged
 PassageTable read_passages(const std::filesystem::path& path, const PassageFormat& format);
 
 /// The same from texts. @param package_text the data package beside the file; empty: none

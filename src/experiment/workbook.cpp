@@ -11,21 +11,16 @@
 #include <memory>
 #include <optional>
 #include <pugixml.hpp>
-#include <regex>
 
 #include "core/error.hpp"
 #include "data/text.hpp"
+#include "experiment/excel97.hpp"
+#include "experiment/workbook_cells.hpp"
 
 namespace recoil {
 namespace {
 
-// Bounds, so that a small file cannot take all memory.
-constexpr std::size_t largest_workbook = 32UL << 20;  // [bytes]
-constexpr std::size_t largest_part = 24UL << 20;      // unpacked; as a tree up to 25 times as much
-constexpr std::size_t largest_table = 128UL << 20;    // a sheet as cells and as text
-constexpr std::size_t cell_overhead = 100;            // of a cell in memory, besides its text
-constexpr std::size_t sheet_rows = 1'048'576;         // of Excel, as the columns
-constexpr std::size_t sheet_columns = 16'384;
+constexpr std::size_t largest_part = 24UL << 20;  // unpacked; as a tree up to 25 times as much
 
 constexpr std::string_view zip_mark = "PK\x03\x04";
 constexpr std::string_view compound_mark = "\xD0\xCF\x11\xE0";  // .xls, and .xlsx with a password
@@ -58,9 +53,9 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 }
 
 /// A workbook, which is a zip archive of XML files ("parts"), and the errors about it.
-class Archive {
+class Archive : public WorkbookErrors {
  public:
-  Archive(std::string_view bytes, const std::string& file) : file_(file) {
+  Archive(std::string_view bytes, const std::string& file) : WorkbookErrors(file) {
     if (bytes.size() > largest_workbook) fail_too_large();
     zip_error_t error;
     zip_error_init(&error);
@@ -103,110 +98,24 @@ class Archive {
     return document;
   }
 
-  [[noreturn]] void fail(const std::string& problem, const std::string& why,
-                         const std::string& suggestion) const {
-    throw InputError({file_}, problem, why, suggestion);
-  }
-  [[noreturn]] void fail_damaged(const std::string& why) const {
-    fail("the workbook is damaged", why, "save it again in its program");
-  }
-  [[noreturn]] void fail_encrypted() const {
-    fail("the workbook is encrypted", "it has a password", "save it without one, or as CSV");
-  }
-  [[noreturn]] void fail_too_large() const {
-    fail("the workbook is too large", "", "save the sheet as CSV");
-  }
-  [[noreturn]] void fail_other_kind() const {
-    fail("this is not a workbook that recoil reads", "it reads .xlsx and .ods",
-         "save the sheet as .xlsx or CSV");
-  }
-
  private:
   struct Discard {
     void operator()(zip_t* zip) const { zip_discard(zip); }
   };
-  std::string file_;
   std::unique_ptr<zip_t, Discard> zip_;
 };
 
-/// The cells of a sheet. Rows and columns count from 0.
-class Cells {
- public:
-  Cells(const Archive& archive, char decimal) : archive_(archive), decimal_(decimal) {}
-
-  void put_text(std::size_t row, std::size_t column, std::string text) {
-    std::ranges::replace(text, '\n', ' ');
-    text = trimmed(with_plain_blanks(text));
-    replace_all(text, "\"", "\"\"");
-    if (!text.empty()) put(row, column, '"' + text + '"');
-  }
-
-  /// Puts the shortest digits that give the stored number.
-  void put_number(std::size_t row, std::size_t column, const std::string& stored) {
-    const auto number = parse_number(stored);
-    if (!number) return put_text(row, column, stored);
-    std::string cell = fmt::format("{}", *number);
-    std::ranges::replace(cell, '.', decimal_);
-    put(row, column, cell);
-  }
-
-  /// The rows, all with the width of the widest, except for empty ones.
-  std::string table() const {
-    std::size_t width = 0;
-    for (const Row& row : rows_) width = std::max(width, row.empty() ? 0 : row.rbegin()->first + 1);
-    std::string table;
-    for (const Row& row : rows_) {
-      std::size_t at = 0;
-      for (const auto& [column, cell] : row) {
-        table.append(column - at, '\t');
-        table += cell;
-        at = column;
-      }
-      if (!row.empty()) table.append(width - 1 - at, '\t');
-      table += '\n';
-      if (table.size() > largest_table) archive_.fail_too_large();
-    }
-    return table;
-  }
-
- private:
-  using Row = std::map<std::size_t, std::string>;  ///< by column
-
-  void put(std::size_t row, std::size_t column, const std::string& cell) {
-    bytes_ += cell.size() + cell_overhead;
-    if (row >= sheet_rows || column >= sheet_columns || bytes_ > largest_table) {
-      archive_.fail_too_large();
-    }
-    if (rows_.size() <= row) rows_.resize(row + 1);
-    rows_[row][column] = cell;
-  }
-
-  const Archive& archive_;
-  char decimal_;
-  std::vector<Row> rows_;
-  std::size_t bytes_ = 0;
-};
-
 /// A sheet of a workbook, and where it is.
-struct Listed {
-  std::string name;
-  bool hidden = false;
+struct Listed : ListedSheet {
   std::string part;  ///< .xlsx
   Xml table;         ///< .ods
 };
 
-/// Takes the sheet of this name, or the first that is not hidden, out of `all`.
-Listed take_sheet(std::vector<Listed>& all, const std::string& name, const Archive& archive) {
-  const auto found = name.empty() ? std::ranges::find(all, false, &Listed::hidden)
-                                  : std::ranges::find(all, name, &Listed::name);
-  if (found == all.end()) {
-    if (name.empty()) archive.fail_damaged("it has no sheet");
-    std::vector<std::string> names;
-    for (const Listed& one : all) names.push_back(one.name);
-    archive.fail("no sheet is called " + quote(name), "", did_you_mean(name, names));
-  }
-  Listed taken = *found;
-  all.erase(found);
+/// Takes the sheet of this name out of `all`.
+Listed take_sheet(std::vector<Listed>& all, const std::string& name, const WorkbookErrors& errors) {
+  const std::size_t at = chosen_sheet({all.begin(), all.end()}, name, errors);
+  Listed taken = all[at];
+  all.erase(all.begin() + static_cast<std::ptrdiff_t>(at));
   return taken;
 }
 
@@ -241,14 +150,7 @@ std::string rich_text(const Xml& node) {
   return text;
 }
 
-/// True if a number format shows a date or a time: it has one of the letters y, m, d, h and s
-/// outside quotation marks and brackets. [h] (hours beyond a day) counts.
-bool shows_date(const std::string& format) {
-  static const std::regex other(R"re("[^"]*"|\[(?![hms]+\])[^\]]*\]|[\\_*].)re", std::regex::icase);
-  return std::regex_replace(format, other, "").find_first_of("ymdhsYMDHS") != std::string::npos;
-}
-
-/// Which cell styles show dates. Formats without a code are those of ECMA-376 part 1, 18.8.30.
+/// Which cell styles show dates.
 std::vector<bool> date_styles(const pugi::xml_document& document) {
   const Xml sheet = child(document, "styleSheet");
   std::map<std::string, bool> stated;
@@ -258,20 +160,9 @@ std::vector<bool> date_styles(const pugi::xml_document& document) {
   std::vector<bool> styles;
   for (const Xml& style : child(sheet, "cellXfs").children()) {
     const std::string id = attribute(style, "numFmtId");
-    const std::size_t number = whole_number(id).value_or(0);
-    const bool built_in = (number >= 14 && number <= 22) || (number >= 27 && number <= 36) ||
-                          (number >= 45 && number <= 47) || (number >= 50 && number <= 58);
-    styles.push_back(stated.contains(id) ? stated[id] : built_in);
+    styles.push_back(stated.contains(id) ? stated[id] : shows_date(whole_number(id).value_or(0)));
   }
   return styles;
-}
-
-/// "date 2024-05-01" of a number of days since `epoch`.
-std::string date_text(double days, std::chrono::sys_days epoch) {
-  if (!(days >= 1.0 && days < 3e6)) return fmt::format("time {} d", days);
-  const std::chrono::year_month_day date(epoch + std::chrono::days(static_cast<int>(days)));
-  return fmt::format("date {:04}-{:02}-{:02}", static_cast<int>(date.year()),
-                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
 /// The column of "AB12", from 1.
@@ -300,12 +191,11 @@ class XlsxReader {
       const std::string part = parts.by_id[attribute(sheet, "id")];
       const bool hidden =
           !attribute(sheet, "state").empty() && attribute(sheet, "state") != "visible";
-      if (!part.empty()) sheets.push_back({attribute(sheet, "name"), hidden, part, Xml()});
+      if (!part.empty()) sheets.push_back({{attribute(sheet, "name"), hidden}, part, Xml()});
     }
     const Listed chosen = take_sheet(sheets, name, archive_);
     const std::string since = attribute(child(root, "workbookPr"), "date1904");
-    using std::chrono::year;
-    epoch_ = since == "1" || since == "true" ? year(1904) / 1 / 1 : year(1899) / 12 / 30;
+    epoch_ = first_day(since == "1" || since == "true");
     if (parts.by_type.contains("styles")) {
       date_styles_ = date_styles(archive_.xml(parts.by_type["styles"]));
     }
@@ -404,7 +294,7 @@ Sheet read_ods(const Archive& archive, char decimal, const std::string& name,
   }
   for (const Xml& node : child(child(root, "body"), "spreadsheet").children()) {
     if (!is(node, "table")) continue;
-    sheets.push_back({attribute(node, "name"), hidden[attribute(node, "style-name")], "", node});
+    sheets.push_back({{attribute(node, "name"), hidden[attribute(node, "style-name")]}, "", node});
   }
   const Listed chosen = take_sheet(sheets, name, archive);
   Cells cells(archive, decimal);
@@ -433,14 +323,7 @@ bool is_workbook(std::string_view bytes) {
 
 Sheet read_sheet(std::string_view bytes, const std::string& file, const std::string& name,
                  char decimal) {
-  if (bytes.starts_with(compound_mark)) {
-    constexpr std::string_view encrypted("E\0n\0c\0r\0y\0p\0t\0e\0d\0P\0a\0c\0k\0a\0g\0e", 31);
-    const bool password = bytes.find(encrypted) != bytes.npos;
-    throw InputError({file},
-                     password ? "the workbook is encrypted" : "this is a workbook of Excel 97",
-                     password ? "it has a password" : "recoil reads .xlsx and .ods",
-                     password ? "save it without one, or as CSV" : "save it as .xlsx or CSV");
-  }
+  if (bytes.starts_with(compound_mark)) return read_excel97(bytes, file, name, decimal);
   const Archive archive(bytes, file);
   const bool ods = archive.has("content.xml");
   if (!ods && !archive.has("_rels/.rels")) archive.fail_other_kind();

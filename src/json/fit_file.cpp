@@ -74,7 +74,7 @@ std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
 
 FitFile read_fit_file(const std::string& file, const std::string& text, const std::string& reader) {
   const std::string why = reader + " reads what recoil fit FIT --out DIR has written";
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_json(text);
   if (json.is_discarded()) throw InputError({file}, "this is not JSON", why, "name DIR/fit.json");
   if (!json.is_object() || !json.contains("parameters")) {
     throw InputError({file}, "this is not the fit.json of a fit", why, "name DIR/fit.json");

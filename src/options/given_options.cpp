@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/numbers.hpp"
 #include "data/text.hpp"
+#include "options/useless_options.hpp"
 
 namespace recoil {
 
@@ -36,6 +37,7 @@ GivenOptions GivenOptions::of_python(
     }
     if (!values.empty()) given.set(row->name, std::move(values));
   }
+  refuse_useless_options(given);
   return given;
 }
 

@@ -48,7 +48,7 @@ std::uint64_t seed_of(const GivenOptions& given, const FitSpec& spec) {
 
 PassageFormat passage_format(const GivenOptions& given) {
   return {given.assignments("--unit"), given.assignments("--column"),
-          given.text("--positive") == "away"};
+          given.text("--positive") == "away", given.has("--decimal-comma")};
 }
 
 PairRequest pair_request(const std::string& file, const GivenOptions& given) {

@@ -56,7 +56,8 @@ const std::vector<OptionRow>& option_rows() {
       {"check", "DIR", path("DIR"), "the dataset's folder", required},
       {"init", "DIR", path("DIR"), "the new folder", required},
       {"merge", "DIR", path("DIR"), "the folder of the shards", required},
-      {"import", "FILE", path("FILE"), "what to import; - for standard input", required},
+      {"import", "FILE", repeated(path("FILE")),
+       "what to import; - for standard input; several files are launches of one ball", required},
       {"pair", "PASSAGES", path("PASSAGES"),
        "CSV file, one row per passage: time, velocity, diameter; optional tangential_velocity and "
        "series (a run; times of different runs are not compared)",
@@ -106,14 +107,16 @@ const std::vector<OptionRow>& option_rows() {
 
       // datasets
       {"init", "--points", path("FILE"),
-       "the points (CSV) with incident_velocity, restitution and any other column of a dataset "
+       "the points (a table) with a header such as V [m/s],e or the columns of a dataset "
        "(default: example points)"},
       {"init", "--provenance", one_of({"measured", "digitised"}), "where these points come from",
        "measured"},
       {"init", "--diameter", diameter(), "diameter of all spheres"},
       {"import", "--format", one_of(all_names<ImportFormat>()), "what the file holds", required},
       {"import", "--into", path("DIR"), "the dataset's folder", required},
-      {"init import", "--sheet", text("NAME"), "sheet of a workbook (default: the first)"},
+      {"init import", "--sheet", text("NAME"),
+       "sheet of a workbook: its name, or its number from 1 on (default: the first that is not "
+       "hidden)"},
       {"init import", "--map", repeated(text("QUANTITY=COLUMN:UNIT")),
        "quantity=column:unit, separated by commas; quantity=a+b+c for repeats in several columns; "
        "quantity=100cm for a constant; a unit may have a factor (0.35mm)"},
@@ -177,6 +180,9 @@ const std::vector<OptionRow>& option_rows() {
       {"pair", "--column", assignments("FIELD=NAME"),
        "names of columns, for files with other names than the fields, e.g. velocity=LDA1", "",
        "pair", "columns"},
+      {"pair", "--decimal-comma", nothing(),
+       "the decimal mark is a comma (2,5), where recoil does not recognise it", "", "pair",
+       "decimal_comma"},
       {"pair", "--positive", one_of({"towards", "away"}),
        "the direction in which velocities are positive: towards the surface or away from it",
        "towards", "pair", "positive"},

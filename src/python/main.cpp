@@ -452,12 +452,15 @@ void translate(std::exception_ptr thrown) {
 void bind_inputs(py::module_& module) {
   module.def(
       "write_whole_files",
-      [](const std::vector<std::pair<std::filesystem::path, std::string>>& files) {
+      [](const std::vector<std::pair<std::filesystem::path, std::string>>& files, bool replace) {
         std::vector<WholeFile> whole;
         for (const auto& [path, text] : files) whole.push_back({path, text});
-        write_whole_files(whole);
+        write_whole_files(whole, replace ? Replacing::data : Replacing::results);
       },
-      py::arg("files"), py::call_guard<Released>());
+      py::arg("files"), py::arg("replace"), py::call_guard<Released>());
+  module.def(
+      "read_text_file", [](const std::filesystem::path& file) { return read_text_file(file); },
+      py::arg("file"), py::call_guard<Released>());
   py::class_<Dataset>(module, "Dataset")
       .def_readonly("id", &Dataset::id)
       .def_readonly("title", &Dataset::title)

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/units.hpp"
+#include "data/contact.hpp"
 #include "data/text.hpp"
 #include "document/terminal.hpp"
 #include "report/format.hpp"
@@ -148,6 +149,11 @@ std::vector<Section> dataset_sections(const Dataset& dataset) {
   std::vector<std::string> warnings;
   for (const DatasetWarning& warning : dataset.warnings) {
     warnings.push_back(warning_sentence(warning));
+  }
+  if (!dataset.points.empty()) {
+    const std::vector<double> sizes = distinct_diameters(dataset);
+    const ContactProperties contact = derive_contact(dataset.system, sizes[sizes.size() / 2]);
+    warnings.insert(warnings.end(), contact.contradictions.begin(), contact.contradictions.end());
   }
   return {
       shown_section("dataset", "Dataset",

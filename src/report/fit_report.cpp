@@ -71,6 +71,23 @@ Sentence capture_words(const Analysis& a) {
   return say("Spheres {}.", join(parts, ", "));
 }
 
+/// A warning about spheres that rebounded below half of their fitted capture velocity.
+Sentence contradiction_words(const Analysis& a) {
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    double slowest = INFINITY;  // rebound
+    for (const ImpactPoint& point : a.datasets[capture.dataset].points) {
+      if (point.diameter != capture.diameter || point.all_captured()) continue;
+      slowest = std::min(slowest, point.incident_velocity);
+    }
+    if (!capture.found || !(2.0 * slowest < capture.value)) continue;
+    return say(
+        "Some rebounded at {:.3g} m/s, far below {:.3g} m/s: check the units and the stated "
+        "errors.",
+        slowest, capture.value);
+  }
+  return {};
+}
+
 /// A warning about damping parameters at their upper bound.
 Sentence bound_words(const FitResult& f) {
   const std::vector<std::size_t> held = held_back_dampings(f);
@@ -268,7 +285,8 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   }
   std::vector<Figure> panels = restitution_figures(a);
   std::vector<Sentence> leads = {bound_words(a.fitted), verdict_sentence(a.fitted),
-                                 capture_words(a), loss_words(a), odd_point_words(a)};
+                                 capture_words(a),      contradiction_words(a),
+                                 loss_words(a),         odd_point_words(a)};
   std::erase(leads, Sentence());
   answer.blocks = {Paragraph{join(leads, " "), true},
                    Paragraph{join(restitution_sentences(a.datasets, a.fitted.model), " ")},

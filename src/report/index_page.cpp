@@ -36,7 +36,7 @@ struct ShownDiagnosis {
 template <class File>
 File contents_of(const std::string& page, const std::string& json, const std::string& file) {
   try {
-    const Json read = Json::parse(json, nullptr, false);
+    const Json read = parse_json(json);
     if (read.is_object()) return value_from<File>(read);
   } catch (const JsonMismatch&) {
   }

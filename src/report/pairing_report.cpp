@@ -12,6 +12,7 @@
 #include "document/terminal.hpp"
 #include "experiment/flight.hpp"
 #include "report/result_json.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -30,6 +31,7 @@ Section rows_section(const PassageTable& table) {
             return fmt::format("{} [{}]", field.field, field.unit);
           }))}};
   List left_out;
+  for (const ImportNote& note : table.notes) left_out.entries.emplace_back(note_sentence(note));
   if (table.damaged > 0) {
     left_out.entries.push_back(say("{} left out ({})", counted(table.damaged, "damaged row"),
                                    joined(table.first_damaged, "; ", [&](const BadRow& row) {
@@ -215,9 +217,9 @@ Section points_section(const Averages& averages) {
     left_out.entries.push_back(counted(averages.outside_sizes, "impact lies", "impacts lie") +
                                " outside the size classes");
   }
-  if (averages.in_small_bins > 0) {
-    left_out.entries.push_back(counted(averages.in_small_bins, "impact is", "impacts are") +
-                               " isolated in velocity, fewer than 5 together: left out");
+  if (averages.single > 0) {
+    left_out.entries.push_back(counted(averages.single, "impact has", "impacts have") +
+                               " fewer than 5 at the same velocity: each is a point");
   }
   append(section.blocks, {std::move(left_out), averages_table(averages)});
   if (averages.points.size() > most_rows) {

@@ -60,7 +60,11 @@ std::vector<Block> data_banners(const std::vector<Dataset>& datasets) {
   }
   for (const Dataset& dataset : datasets) {
     for (const DatasetWarning& warning : dataset.warnings) {
-      if (warning.remark != PointRemark::unmarked_zero) continue;
+      using enum PointRemark;
+      const bool changes_results = warning.remark == unmarked_zero ||
+                                   warning.remark == error_above_velocity ||
+                                   warning.remark == tiny_restitution;
+      if (!changes_results) continue;
       banners.emplace_back(Paragraph{as_sentence(Sentence(warning_sentence(warning)))});
     }
     const std::string oblique = normal_component_words(dataset);
@@ -95,6 +99,12 @@ std::string warning_sentence(const DatasetWarning& warning) {
     case PointRemark::repeated:
       return points_with("the same series, diameter, velocity and restitution as an earlier one",
                          "kept; a point copied by accident counts twice");
+    case PointRemark::error_above_velocity:
+      return points_with("a standard deviation of the velocity above the velocity itself",
+                         "kept; check the two units");
+    case PointRemark::tiny_restitution:
+      return points_with("a restitution of 0.02 or less, and none above it",
+                         "kept; check whether e is in per cent or a velocity in another unit");
     case PointRemark::other_bytes:
       return "the file of the points has another size or hash than datapackage.json states: it was "
              "changed since; correct 'bytes' and 'hash' there, or remove them";
@@ -172,10 +182,15 @@ std::string note_sentence(const ImportNote& note) {
       std::vector<std::string> others = note.names;
       const std::string read = quote(others.front());
       others.erase(others.begin());
-      return others.empty() ? fmt::format("the sheet {} was read", read)
-                            : fmt::format("the sheet {} was read; --sheet NAME reads another: {}",
-                                          read, listed(others));
+      return others.empty()
+                 ? fmt::format("the sheet {} was read", read)
+                 : fmt::format("the sheet {} was read; --sheet NAME or NUMBER reads another: {}",
+                               read, listed(others));
     }
+    case columns_known:
+      return fmt::format("columns were taken by their names: {}; --map names others", names);
+    case decimal_commas:
+      return "the numbers have decimal commas";
     case lines_skipped:
       return fmt::format("skipped as a comment or title: {}", names);
     case rows_left_out:
@@ -245,6 +260,8 @@ std::string note_sentence(const ImportNote& note) {
     case frames_repeated:
       return counted(note.count, "frame") +
              " left out: the film repeats frames, so that the ball stands still in flight";
+    case tracks_without_impact:
+      return fmt::format("no impact was found in {}", names);
     case frames_mended:
       return "the rows count as frames; " + counted(note.count, "frame") +
              " that the film lost or shows twice, as steps of double or no length tell, were "

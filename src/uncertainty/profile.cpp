@@ -19,7 +19,9 @@ constexpr int most_bisections = 60;
 constexpr int curve_steps = 14;  // on either side of the estimate
 // Reach of a curve, over the distance from the estimate to the end.
 constexpr double curve_reach = 1.4;
-constexpr double end_tolerance = 1e-3;  // relative tolerance of the rise at an interval's end
+// Relative tolerance of the rise at the last evaluation before an interval's end. A secant from
+// there leaves less than 1e-6 of the distance from the estimate.
+constexpr double end_tolerance = 1e-4;
 
 class Profile {
  public:
@@ -219,13 +221,24 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
     f_in = f_out;
     stride *= 1.6;
   }
+  double before = outside;  // the last evaluation
+  double f_before = f_out;
   for (int i = 0; i < most_bisections; ++i) {
     const double guess = outside - f_out * (outside - inside) / (f_out - f_in);
     const auto rise = profile.rise(guess, others);
     if (!rise) return std::nullopt;
     const double wanted = allowed(guess);
-    if (std::abs(*rise - wanted) <= end_tolerance * wanted) return End{guess, false};
     const double f = excess(*rise, guess);
+    if (std::abs(*rise - wanted) <= end_tolerance * wanted) {
+      const double slope = (f - f_before) / (guess - before);
+      const bool outwards = slope * direction > 0.0;
+      return End{outwards ? std::clamp(guess - f / slope, std::min(inside, outside),
+                                       std::max(inside, outside))
+                          : guess,
+                 false};
+    }
+    before = guess;
+    f_before = f;
     if (f > 0.0) {
       outside = guess;
       f_out = f;

@@ -170,9 +170,10 @@ const std::vector<double>& diameters() {
 
 void write_peer_case(const std::filesystem::path& folder, int velocities, bool state_sd) {
   const Start start;
-  write_whole_file(folder / "points.csv", points_csv(velocities, state_sd));
+  write_whole_file(folder / "points.csv", points_csv(velocities, state_sd), Replacing::data);
   write_whole_file(folder / "datapackage.json",
-                   datapackage_json(state_sd ? field_json("restitution_sd", false) : ""));
+                   datapackage_json(state_sd ? field_json("restitution_sd", false) : ""),
+                   Replacing::data);
   write_whole_file(folder / "fit.toml", fit_toml());
   write_whole_file(folder / "constants.json",
                    fmt::format("{{\"density\": {}, \"stiffness\": {}, \"reference_diameter\": {}, "
@@ -224,8 +225,8 @@ void write_captures(const std::filesystem::path& rows, const std::filesystem::pa
       fmt::format("dataset = \".\"\n\n[parameters]\nf0 = {{ initial = {}, free = false }}\n",
                   truth().adhesion_force);
   for (const auto& [folder, points] : {std::pair(rows, single), std::pair(means, counted)}) {
-    write_whole_file(folder / "points.csv", points);
-    write_whole_file(folder / "datapackage.json", package);
+    write_whole_file(folder / "points.csv", points, Replacing::data);
+    write_whole_file(folder / "datapackage.json", package, Replacing::data);
     write_whole_file(folder / "fit.toml", fit);
   }
 }

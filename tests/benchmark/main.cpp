@@ -247,7 +247,7 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   write_whole_file(build / "benchmark.json", results.dump(2) + "\n");
   write_whole_file(root / "reports/benchmark.md", benchmark_page(results, earlier));
   const fs::path page = root / "docs/speed.md";
-  write_whole_file(page, with_block(read_text_file(page), short_table(results)));
+  write_whole_file(page, with_block(read_text_file(page), short_table(results)), Replacing::data);
   fmt::print("\n{}\nWrote {}, reports/benchmark.md and the table of docs/speed.md\n",
              short_table(results), fs::relative(build / "benchmark.json", root).string());
   return 0;

@@ -48,8 +48,19 @@ TEST(NearestWord, FindsTypingMistakes) {
   EXPECT_EQ(nearest_word("model", known), "model");
 }
 
+TEST(NearestWord, CaseBlanksAndHyphensDoNotCount) {
+  EXPECT_EQ(nearest_word("Fused Silica", {"fused-silica"}), "fused-silica");
+  EXPECT_EQ(nearest_word("v", {"d", "V"}), "V");
+  EXPECT_EQ(nearest_word("--perbin", {"--per-bin"}), "--per-bin");
+}
+
 TEST(NearestWord, StaysSilentWhenNothingIsNear) {
   EXPECT_EQ(nearest_word("xyz", {"dataset", "uncertainty"}), "");
+  // Similar letters, another meaning.
+  EXPECT_EQ(nearest_word("--threads", {"--spread"}), "");
+  EXPECT_EQ(nearest_word("--level", {"--seed"}), "");
+  EXPECT_EQ(nearest_word("silica", {"silicon"}), "");
+  EXPECT_EQ(nearest_word("D", {"V", "e"}), "");
   EXPECT_EQ(nearest_word("anything", {}), "");
 }
 

@@ -91,7 +91,6 @@ TEST_F(Files, LinksStayAndDevicesAreWrittenInto) {
 }
 
 TEST_F(Files, AResultNeverTakesThePlaceOfItsInput) {
-  protect_inputs();
   folder_.write("my.toml", "x");
   fs::create_symlink("my.toml", folder_ / "link");
   read_text_file(folder_ / "my.toml");
@@ -110,7 +109,6 @@ TEST_F(Files, AResultNeverTakesThePlaceOfItsInput) {
 }
 
 TEST_F(Files, DataStayUnlessTheyAreToBeReplaced) {
-  protect_inputs();
   for (const char* name : {"points.csv", "datapackage.json"}) {
     const fs::path place = folder_ / name;
     write_whole_file(place, "new");

@@ -115,6 +115,21 @@ TEST(JsonFields, NameThePlaceOfWhatCannotBeRead) {
   EXPECT_EQ(message(R"({"range": [1]})"), "'range' is [1], not a list of the right length");
 }
 
+TEST(ParseJson, LimitsTheNestingOfWhatIsNoText) {
+  const auto nested = [](int levels) {
+    const auto count = static_cast<std::size_t>(levels);
+    return R"({"key \" [[[": )" + std::string(count - 1, '[') + std::string(count - 1, ']') + "}";
+  };
+  EXPECT_TRUE(parse_json(nested(deepest_json)).is_object());
+  EXPECT_TRUE(parse_json(nested(deepest_json + 1)).is_discarded());
+  EXPECT_TRUE(parse_json(nested(1000000)).is_discarded());
+  EXPECT_TRUE(parse_json("\"" + std::string(1000, '[') + "\"").is_string());
+  EXPECT_TRUE(parse_json(R"("\\")").is_string());
+  for (const char* text : {"", "[", "\"", "\"\\", "]", "{]", "nan"}) {
+    EXPECT_TRUE(parse_json(text).is_discarded()) << text;
+  }
+}
+
 TEST(JsonFields, TextIsValidWhateverTheBytesAre) {
   Ball ball;
   ball.name = "broken \xff\xfe\n";

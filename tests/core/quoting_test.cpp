@@ -65,6 +65,12 @@ TEST_F(Quoting, ATerminalIsToldNothing) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(printable("a\tb\nc\r", true), "a\tb\nc ");
   EXPECT_EQ(printable("ünï – ☃"), "ünï – ☃");
+  // every character that UAX #9 or Unicode's lines know: none turns the letters behind it around
+  for (const char* mark : {"\u061C", "\u200E", "\u200F", "\u2028", "\u2029", "\u202A", "\u202B",
+                           "\u202C", "\u202D", "\u202E", "\u2066", "\u2067", "\u2068", "\u2069"}) {
+    EXPECT_EQ(printable(std::string("a") + mark + "b", true), "a b");
+  }
+  EXPECT_EQ(printable("\u2027\u202F\u2065\u206A"), "\u2027\u202F\u2065\u206A");
 }
 
 // The first and the last sequence of each length, and what RFC 3629 excludes: overlong forms,

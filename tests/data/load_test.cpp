@@ -333,6 +333,24 @@ TEST(LoadDataset, WarnsOncePerPeculiarity) {
   expect(3, PointRemark::repeated, 1, 5);
 }
 
+TEST(LoadDataset, WarnsOfUnitsThatContradictEachOther) {
+  const std::string header =
+      "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
+  const auto warnings = [&](const std::string& rows) {
+    return load_dataset(DatasetFolder(example::package, header + rows).path()).warnings;
+  };
+  // Errors in mm/s beside velocities in m/s; e in per cent that is called a ratio of per cent.
+  const auto errors = warnings("a,5,0.1,0.5,,3,,\na,5,2,0.6,,0.2,,\n");
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].remark, PointRemark::error_above_velocity);
+  EXPECT_EQ(errors[0].count, 1U);
+  const auto tiny = warnings("a,5,1,0.005,,,,\na,5,2,0.007,,,,\na,5,0.1,,,,3,3\n");
+  ASSERT_EQ(tiny.size(), 1U);
+  EXPECT_EQ(tiny[0].remark, PointRemark::tiny_restitution);
+  EXPECT_EQ(tiny[0].count, 2U);
+  EXPECT_TRUE(warnings("a,5,1,0.005,,,,\na,5,2,0.6,,0.2,,\n").empty());
+}
+
 TEST(LoadDataset, ARestitutionOfZeroIsACapture) {
   const std::string header =
       "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
@@ -418,6 +436,20 @@ TEST(LoadDataset, ReadsStrengthAndPermittivity) {
   EXPECT_EQ(system.surface.relative_permittivity, 3.8);
   const DatasetFolder plain(example::package);
   EXPECT_FALSE(recoil::load_dataset(plain.path()).system.surface.yield_pressure());
+}
+
+TEST(LoadDataset, ALinkToAFileElsewhereIsNotRead) {
+  const DatasetFolder folder(example::package);
+  const support::TemporaryFolder other;
+  other.write("secret", "the secret line\n");
+  std::filesystem::rename(folder / "points.csv", folder / "own.csv");
+  std::filesystem::create_symlink("own.csv", folder / "points.csv");
+  EXPECT_NO_THROW(recoil::load_dataset(folder.path()));
+  std::filesystem::remove(folder / "points.csv");
+  std::filesystem::create_symlink(other / "secret", folder / "points.csv");
+  const std::string told = support::message_of([&] { recoil::load_dataset(folder.path()); });
+  EXPECT_EQ(told.find("the secret line"), std::string::npos) << told;
+  EXPECT_NE(told, "no error");
 }
 
 TEST(LoadDataset, ReadsManySeriesInATimeInProportionToTheirNumber) {

@@ -150,6 +150,37 @@ TEST(Averages, DropHeightsAreNotMixedNorOneCutByItsErrors) {
   EXPECT_EQ(average(wide.events, {"run"}, wide.pairs, {}).points.size(), 10U);
 }
 
+// Errors that are small beside the distances of velocities do not make isolated impacts.
+TEST(Averages, EveryReboundIsInAPoint) {
+  struct Case {
+    double error;     ///< of a velocity [1]
+    std::size_t few;  ///< impacts at a velocity of their own
+  };
+  for (const auto& [error, few] : {Case{0.01, 0}, Case{0.0005, 0}, Case{1e-6, 0}, Case{0.0005, 3}}) {
+    Made made;
+    made.pairs.velocity_spread = error;
+    for (int i = 0; i < 500; ++i) {  // 0.35 to 1.6 m/s, evenly but for the golden ratio's shifts
+      made.rebound(0.35 + 1.25 * std::fmod(0.618033988749895 * i, 1.0), 0.8);
+    }
+    for (std::size_t i = 0; i < few; ++i) made.rebound(9.0, 0.7);
+    made.stay(0.01);
+    const Averages result = average(made.events, {"run"}, made.pairs, {});
+    std::size_t rebounds = 0;
+    std::size_t bins = 0;
+    for (const PointMean& point : result.points) {
+      rebounds += point.rebounds;
+      if (point.rebounds == 1) continue;
+      EXPECT_NEAR(static_cast<double>(point.rebounds), 40.0, 5.0) << error;
+      ++bins;
+    }
+    EXPECT_EQ(rebounds, 500 + few);
+    EXPECT_EQ(result.points.size(), bins + few);
+    EXPECT_EQ(result.single, few);
+    EXPECT_EQ(result.unpaired, 1U) << "alone at its velocity, and of no known fate";
+    EXPECT_EQ(result.captured, 0U);
+  }
+}
+
 TEST(Averages, SizeClasses) {
   Made made;
   for (int i = 0; i < 60; ++i) made.rebound(1.0, 0.5 + 0.005 * i, (20.0 + i) * 1e-6);

@@ -91,6 +91,38 @@ TEST(Table, AnAngleOfIncidenceIsKnownByItsUsualNames) {
   EXPECT_THAT(place.read("0/points.csv"), HasSubstr(",60,0.9"));  // in degrees
 }
 
+TEST(Table, UsualNamesNeedNoMap) {
+  const Place place;
+  int number = 0;
+  for (const char* text :
+       {"V [m/s],e,d [um]\n2,0.8,5\n", "Vi (cm/s);Vr (cm/s);Diameter (um)\n200;160;5\n",
+        "Impact velocity [m/s],COR,particle diameter [mm]\n2,0.8,0.005\n",
+        "e\tV\tD\n\tm/s\tum\n0.8\t2\t5\n", "V_in [m/s],e [%],D [um],d50\n2,80,5,7\n",
+        "V [m/s],e,Vr [m/s],d_p [um]\n2,0.8,1.7,5\n"}) {
+    SCOPED_TRACE(text);
+    auto request = place.request(text, ImportFormat::csv);
+    request.into = place.folder() / std::to_string(number++);
+    const Dataset made = recoil::import_points(request).dataset;
+    ASSERT_EQ(made.points.size(), 1U);
+    EXPECT_NEAR(made.points[0].incident_velocity, 2.0, 1e-12);
+    EXPECT_NEAR(made.points[0].restitution, 0.8, 1e-12);
+    EXPECT_NEAR(made.points[0].diameter, 5e-6, 1e-15);
+  }
+  // A letter without a unit may be anything, as may two columns of one name.
+  for (const char* text : {"V,e\n2,0.8\n", "V [m/s],Vi [m/s],e\n2,3,0.8\n"}) {
+    EXPECT_THAT(complaint(place.request(text, ImportFormat::csv)),
+                HasSubstr("--map incident_velocity=COLUMN:UNIT"));
+  }
+  // What --map takes is no other quantity.
+  auto mapped = place.request("V [m/s],e\n2,1.6\n", ImportFormat::csv);
+  mapped.map = {"rebound_velocity=e:m/s"};
+  EXPECT_NEAR(recoil::import_points(mapped).dataset.points[0].restitution, 0.8, 1e-12);
+  // The header and --map contradict each other.
+  auto other = place.request("V (cm/s),e\n2,0.8\n", ImportFormat::csv);
+  other.map = {"incident_velocity=\"V (cm/s)\":m/s"};
+  EXPECT_THAT(complaint(other), AllOf(HasSubstr("input.csv:1:1:"), HasSubstr("'m/s'")));
+}
+
 TEST(Table, RadiansOfTheMapAndAnglesThatCannotBeUsed) {
   const Place place;
   const auto request_of = [&](const std::string& text, const std::string& map) {
@@ -502,6 +534,21 @@ TEST(Materials, EveryOneOfTheTableIsAccepted) {
     request.into = place.folder() / std::string(material.name);
     EXPECT_EQ(complaint(request), "no error") << material.name;
   }
+}
+
+TEST(Materials, NamesThatMeanTheSame) {
+  for (const auto& [said, name] : {std::pair("silica", "fused-silica"),
+                                   {"Fused Silica", "fused-silica"},
+                                   {"fused_quartz", "fused-silica"},
+                                   {"Aluminum", "aluminium"},
+                                   {"stainless steel", "stainless"},
+                                   {"Polystyrene latex", "polystyrene"},
+                                   {"Silicon Carbide", "silicon-carbide"}}) {
+    EXPECT_EQ(recoil::tabled_material(said, "--particle")["material"], name);
+    EXPECT_EQ(recoil::source_of_tabled(said), recoil::source_of_tabled(name));
+  }
+  // Quartz is a crystal.
+  EXPECT_THROW(recoil::tabled_material("quartz", "--particle"), recoil::InputError);
 }
 
 TEST(Materials, TungstenCarbideHasTheSpeedsOfSoundOfItsSource) {

@@ -302,15 +302,15 @@ TEST(Track, LostSamplesRestAndTitlesDoNoHarm) {
 
 TEST(Track, WhatIsAskedFor) {
   const Place place;
-  auto request = place.request("t,y\n0,1\n0.1,0.9\n0.2,0.8\n", ImportFormat::track);
+  auto request = place.request("s,z\n0,1\n0.1,0.9\n0.2,0.8\n", ImportFormat::track);
   EXPECT_THAT(complaint(request), HasSubstr("--map time=COLUMN:s, or give --fps"));
-  request.map = {"time=t:s"};
+  request.map = {"time=s:s"};
   EXPECT_THAT(complaint(request), HasSubstr("--map height=COLUMN:m, or pixel=COLUMN"));
-  request.map = {"time=t:s,height=y:m"};
+  request.map = {"time=s:s,height=z:m"};
   EXPECT_THAT(complaint(request), HasSubstr("no impact was found in these tracks"));
   request.scale = "1mm";
   EXPECT_THAT(complaint(request), HasSubstr("--scale without pixels"));
-  auto back = place.request("t,y\n0,1\n0.1,0.9\n0,1\n", ImportFormat::track);
+  auto back = place.request("s,z\n0,1\n0.1,0.9\n0,1\n", ImportFormat::track);
   back.map = request.map;
   EXPECT_THAT(complaint(back), HasSubstr("input.csv:4:1: a time of 0 s"));
 }

@@ -128,8 +128,57 @@ TEST(Events, MistakesOfTheUser) {
             std::string::npos);
   EXPECT_NE(complaint("").find("the file is empty"), std::string::npos);
   EXPECT_NE(complaint("time,velocity,diameter\n").find("no row below it"), std::string::npos);
-  const std::string commas = complaint("time;velocity;diameter\n1,5;2;3\n1,6;2;3\n1;2;3\n");
-  EXPECT_NE(commas.find("dir/e.csv:2:1: time is '1,5' (2 of 3 rows"), std::string::npos) << commas;
+  // 1,500 is fifteen hundred or one and a half.
+  const std::string either = "time;velocity;diameter\n1,500;2;3\n1,600;2;3\n1;2;3\n";
+  const std::string commas = complaint(either);
+  EXPECT_NE(commas.find("dir/e.csv:2:1: time is '1,500' (2 of 3 rows"), std::string::npos)
+      << commas;
+  PassageFormat stated = plain_units();
+  stated.decimal_comma = true;
+  EXPECT_DOUBLE_EQ(read(either, stated).passages[1].time, 1.5e-3);
+}
+
+struct InstrumentFile {
+  const char* program;
+  std::string text;
+  std::size_t skipped;  ///< lines above the header
+};
+
+// Two passages at 10 and 12.5 ms, 1.25 and -1.125 m/s, 60.5 and 60 um.
+TEST(Events, FilesOfInstruments) {
+  const InstrumentFile files[] = {
+      {"Dantec BSA Flow Software, decimal points",
+       "DXEX v4\r\nD:\\run7\r\n\r\n\"Row#\"\t\"AT [ms]\"\t\"TT [µs]\"\t\"LDA1 [m/s]\"\t\"D [µm]\"\r\n"
+       "1\t10.0\t30.0\t1.25\t60.5\r\n2\t12.5\t30.0\t-1.125\t60.0\r\n",
+       3},
+      {"the same, decimal commas, an empty cell at the end of the header",
+       "DXEX v5\nsource.lda\n5:32:17 AM\n1;-2,00 mm;0,00 mm;20,00 mm\nX_20mm\n"
+       "\"Row#\"\t\"AT [ms]\"\t\"TT [us]\"\t\"LDA1 [m/s]\"\t\"U12 [deg]\"\t\"D [um]\"\t\n"
+       "1\t10,0\t2,0\t1,25\t1,0\t60,5\n2\t12,5\t2,0\t-1,125\t1,0\t60,0\t\n",
+       5},
+      {"TSI FlowSizer",
+       "run 7\nTime Ch. 1 (sec), \"Gate Time Ch. 1 (usec)\", \"Velocity Ch. 1 (m/sec)\", "
+       "\"Diameter (um)\", \"Diameter Dif (um)\"\n0.0100,30, 1.25, 60.5,1\n0.0125,30,-1.125,60,1\n",
+       1},
+  };
+  for (const InstrumentFile& file : files) {
+    const PassageTable table = read(file.text, {});
+    ASSERT_EQ(table.passages.size(), 2U) << file.program;
+    EXPECT_EQ(table.damaged, 0U) << file.program;
+    EXPECT_NEAR(table.passages[0].time, 0.0100, 1e-12) << file.program;
+    EXPECT_NEAR(table.passages[1].time, 0.0125, 1e-12) << file.program;
+    EXPECT_NEAR(table.passages[0].velocity, 1.25, 1e-12) << file.program;
+    EXPECT_NEAR(table.passages[1].velocity, -1.125, 1e-12) << file.program;
+    EXPECT_NEAR(table.passages[0].diameter, 60.5e-6, 1e-15) << file.program;
+    EXPECT_EQ(table.passages[0].line, static_cast<int>(file.skipped) + 2) << file.program;
+  }
+  // Which of two components is normal to the surface, only the user knows.
+  const std::string two = "AT [ms]\tLDA1 [m/s]\tLDA2 [m/s]\tD [um]\n1\t2\t3\t4\n";
+  EXPECT_NE(complaint(two, {}).find("--column velocity="), std::string::npos);
+  PassageFormat stated;
+  stated.columns = {{"velocity", "LDA2"}, {"tangential_velocity", "LDA1"}};
+  EXPECT_DOUBLE_EQ(read(two, stated).passages[0].velocity, 3.0);
+  EXPECT_DOUBLE_EQ(read(two, stated).passages[0].tangential, 2.0);
 }
 
 }  // namespace

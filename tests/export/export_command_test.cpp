@@ -212,7 +212,7 @@ TEST(Export, WithoutAdhesionNothingIsCaptured) {
               "series,diameter,incident_velocity,restitution,restitution_sd,events,captured\n"
               "a,4,1,0.99,0.01,20,0\na,4,3,0.97,0.01,20,0\na,4,9,0.93,0.01,20,0\n");
   for (const char* target : {"table", "fluent", "openfoam", "lammps", "yade"}) {
-    const Outcome run = export_to(place, target, {"--replicates", "0"});
+    const Outcome run = export_to(place, target, {"--threads", "2"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out.find("aptures are kept"), std::string::npos) << run.out;
     EXPECT_EQ(run.out.find("apture velocity is kept"), std::string::npos) << run.out;
@@ -260,12 +260,12 @@ TEST(Export, AStockModelIsGivenWhatTheProgramTakesOrNothing) {
 // with E = 1e5 Pa and nu = 0.49 on a rigid surface has E* = 1e5 Pa / (1 - 0.49^2).
 TEST(Export, LiggghtsIsToldThatASphereIsSoft) {
   const Workplace place;
-  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4", "--replicates", "0"}).status, 0);
+  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4"}).status, 0);
   EXPECT_EQ(place.read("out/impact.liggghts").find("\nsoft_particles"), std::string::npos);
   EXPECT_NE(place.read("out/impact.liggghts").find("\nhard_particles yes"), std::string::npos);
   place.change("data/datapackage.json", "\"youngs_modulus\": 2.56e9, \"poisson_ratio\": 0.35",
                "\"youngs_modulus\": 1e5, \"poisson_ratio\": 0.49");
-  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4", "--replicates", "0"}).status, 0);
+  ASSERT_EQ(export_to(place, "liggghts", {"--diameter", "4"}).status, 0);
   const std::string text = place.read("out/impact.liggghts");
   EXPECT_NE(text.find("\nsoft_particles yes"), std::string::npos) << text;
   EXPECT_EQ(text.find("\nhard_particles"), std::string::npos) << text;

@@ -12,7 +12,9 @@
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"
+#ifndef RECOIL_READERS
 #include "report/pairing_report.hpp"
+#endif
 
 namespace {
 
@@ -80,7 +82,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     by.mean_diameter = size % 2 == 0;
     const recoil::Averages averages = recoil::average(table.passages, table.series, pairs, by);
     require_sound(averages);
+#ifndef RECOIL_READERS
     fuzz::require(!recoil::pairing_text(table, pairs, averages).empty(), "description");
+#endif
     recoil::histogram_files(recoil::distributions(table, pairs));
   } catch (const recoil::InputError& error) {
     fuzz::require_one_line(error);

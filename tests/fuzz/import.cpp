@@ -1,6 +1,7 @@
 // What people import, on arbitrary texts: every file is refused with one clear line, and then
 // nothing is written, or becomes a folder that the loader accepts. The first line of an input names
-// the format; the rest is the file.
+// the format, with an asterisk if the columns are not mapped; the rest is the file, which may be a
+// workbook.
 #include "experiment/import.hpp"
 
 #include <cstddef>
@@ -24,7 +25,9 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
   request.surface = "material=silicon,youngs_modulus=131e9,poisson_ratio=0.28";
   request.provenance = recoil::Provenance::measured;
   request.sources = {"a test"};
-  request.format = recoil::value_named<recoil::ImportFormat>(format).value_or(request.format);
+  const bool programs = format.ends_with('*');
+  request.format = recoil::value_named<recoil::ImportFormat>(format.substr(0, format.find('*')))
+                       .value_or(request.format);
   switch (request.format) {
     case recoil::ImportFormat::webplotdigitizer:
       request.axes = {"x=log,1,100", "y=linear,0,1"};
@@ -36,11 +39,11 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
       request.average = true;
       break;
     case recoil::ImportFormat::intervals:
-      request.map = {"launch=run,interval=t:s"};
+      if (!programs) request.map = {"launch=run,interval=t:s"};
       request.time_error = "1ms";
       break;
     case recoil::ImportFormat::track:
-      request.map = {"time=t:s,pixel=y"};
+      if (!programs) request.map = {"time=t:s,pixel=y"};
       break;
     case recoil::ImportFormat::recording:
       break;

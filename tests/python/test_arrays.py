@@ -39,6 +39,13 @@ def test_arrays_frames_and_files_are_the_same_fit(here):
     assert (of_frame.parameters.C_H.value, of_frame.chisqr) == wanted
     assert of_arrays.dataset.provenance == "measured"
     assert {row.series for row in of_arrays.residuals} == {"4 um"}
+    short = FRAME.rename(columns={"incident_velocity": "V", "restitution": "e", "restitution_sd": "e_sd"})
+    assert recoil.fit(short, d=4, replicates=0, **BODIES).dataset.sha256 == of_frame.dataset.sha256
+    in_mm = short.assign(V=1000 * short["V"], d=4.0)
+    found = recoil.fit(in_mm, units={"V": "mm/s"}, replicates=0, **BODIES)
+    assert found.parameters.C_H.value == pytest.approx(wanted[0], rel=1e-9)
+    of_series = recoil.fit(short["V"], short["e"], d=4, e_sd=short["e_sd"], replicates=0, **BODIES)
+    assert of_series.dataset.sha256 == of_arrays.dataset.sha256
 
 
 def test_materials_by_name():

@@ -77,6 +77,28 @@ def test_lmfits_names(here):
     d = [r.diameter_um for r in result.residuals]
     assert result.eval(v, d) == pytest.approx(result.best_fit, abs=1e-9)
     assert "[[" in result.fit_report()
+    deviance = result.goodness.minus_two_log_likelihood
+    assert (result.aic, result.bic) == (deviance + 4, pytest.approx(deviance + 2 * math.log(12)))
+    e = np.array([row.restitution for row in result.residuals])
+    assert result.rsquared == pytest.approx(
+        1 - np.sum((e - result.best_fit)**2) / np.sum((e - e.mean())**2))
+    intervals = result.conf_interval()["C_A"]
+    table = result.ci_report().splitlines()
+    assert f"[{intervals['wald'][0]:.3g}, {intervals['wald'][1]:.3g}]" in table[3]
+    assert table[3].split()[0] == "C_A" and "bca" in table[1]
+
+
+def test_what_cannot_be_compared_is_nan(here):
+    frame = recoil.load_dataset("mine").to_pandas()[["diameter", "incident_velocity", "restitution"]]
+    result = recoil.fit(frame, **{body: recoil.load_dataset("mine").package["recoil"][body]
+                                  for body in ("particle", "surface")}, replicates=0)
+    assert math.isnan(result.aic) and math.isnan(result.bic)
+
+
+def test_the_next_step_is_a_call(here):
+    result = recoil.fit("mine.toml", replicates=0)
+    assert "result.diagnose()" in str(result) and "recoil diagnose" not in str(result)
+    assert "recoil diagnose mine.toml" in result.report()
 
 
 def test_save_writes_what_other_commands_read(here, command):

@@ -299,6 +299,8 @@ def test_draws_are_what_arviz_reads(here):
     assert chains * length == result.facts.posterior.draws
     assert draws["posterior"]["C_A"].mean() == pytest.approx(
         result.facts.posterior.parameters.C_A.mean)
+    # ArviZ 1.x takes the groups as one argument, 0.x as keywords; both know these names.
+    assert {"posterior", "sample_stats", "log_likelihood", "observed_data"} == set(draws)
     pointwise = draws["log_likelihood"]["restitution"]
     assert pointwise.shape == (chains, length, len(draws["observed_data"]["restitution"]))
     stats = draws["sample_stats"]

@@ -20,11 +20,11 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
-from ._datasets import Dataset, Material
+from ._datasets import Dataset, Material, named
 from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, plain, takes_options
+from ._options import given, path_of, plain, takes_options, text_of
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
 
 if TYPE_CHECKING:
@@ -61,12 +61,19 @@ def _toml(value: Any) -> str:
 
 def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) -> _recoil.Inputs:
     """Reads a fit file, or makes a fit from datasets and tables."""
+    if not _is_source(source):
+        refuse(f"{type(source).__name__} is no fit file, dataset, folder or frame",
+               "give V and e as arrays, or a frame of pandas")
     given = {key: plain(key, table) for key, table in tables.items() if table is not None}
-    if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
+    for key, table in given.items():
+        if not isinstance(table, dict):
+            refuse(f"{key} is {table}", "give a dictionary")
+    name = text_of("name", name)
+    if isinstance(source, (str, os.PathLike)) and not os.path.isdir(path_of("source", source)):
         if given:
             refuse(f"{', '.join(given)} cannot be given together with a fit file",
                    "state it in the file, or give the dataset instead of the file")
-        return _recoil.load_fit(os.fspath(source))
+        return _recoil.load_fit(path_of("source", source))
     listed = [source] if isinstance(source, (str, os.PathLike, Dataset)) else list(source)
     datasets = [one if isinstance(one, Dataset) else Dataset(one) for one in listed]
     text = f"dataset = {_toml([one._data.folder for one in datasets])}\n"
@@ -88,7 +95,7 @@ def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
     """``source``, or a dataset made of a frame or arrays and the other arguments in ``stated``."""
     given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
     if hasattr(source, "columns"):
-        frame: Any = source
+        frame: Any = named(source)
         for name, column in (("e", e), *((n, given.get(n)) for n in _ARRAYS if n != "d")):
             if column is not None:
                 refuse(f"{name} is given beside a frame", "make it a column of the frame")
@@ -106,9 +113,6 @@ def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
     if given:
         refuse(f"{', '.join(given)} cannot be given together with a file or a dataset",
                "they belong to arrays and frames")
-    if not _is_source(source):
-        refuse(f"{type(source).__name__} is no fit file, dataset, folder or frame",
-               "give V and e as arrays, or a frame of pandas")
     sources: Source = source
     return sources
 
@@ -156,7 +160,8 @@ def fit(
 
     ``fit(V, e, d=4.9, particle="polystyrene", surface="silicon")`` fits arrays: incident velocity
     [m/s], restitution [1], diameter [um], with the other arguments of ``Dataset.from_arrays``.
-    ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv;
+    ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv,
+    or the short names V, e, d, V_sd and e_sd;
     ``d`` is then the diameter of all rows, and ``units`` is that of ``Dataset.from_pandas``.
     ``provenance`` is ``"measured"`` unless given.
 
@@ -236,12 +241,8 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
         if isinstance(one, FitResult):
             named.append((f"fit {number}", one.json))
         else:
-            try:
-                with open(one, encoding="utf-8") as file:
-                    named.append((os.fspath(one), file.read()))
-            except OSError as error:
-                message = f"{os.fspath(one)}: {error.strerror}"
-                raise InputError(message, file=os.fspath(one), problem=str(error.strerror)) from error
+            file = path_of(f"fit {number}", one)
+            named.append((file, _recoil.read_text_file(file)))
     if len(named) < 2:
         refuse(f"a comparison needs two or more fits, not {len(named)}", "give another one")
     return Comparison(*_recoil.compare(named))
@@ -279,18 +280,17 @@ def pair(
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
     is found.
     """
-    return Pairing(_recoil.pair(os.fspath(passages), given("pair", locals())))
+    return Pairing(_recoil.pair(path_of("passages", passages), given("pair", locals())))
 
 
 def schema(name: str) -> dict[str, Any]:
     """The JSON Schema of a result: ``fit``, ``diagnosis``, ``predict``, ``simulate``,
     ``coverage``, ``compare``, ``pair`` or ``plan``. Raises ``InputError`` for another name."""
     folder = resources.files(__name__) / "schemas"
-    file = folder / f"{name}.schema.json"
-    if not file.is_file():
-        known = sorted(f.name.split(".")[0] for f in folder.iterdir())
+    known = sorted(f.name.split(".")[0] for f in folder.iterdir())
+    if text_of("name", name) not in known:
         refuse(f"there is no schema {name!r}", f"choose one of {', '.join(known)}")
-    found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    found: dict[str, Any] = json.loads((folder / f"{name}.schema.json").read_text(encoding="utf-8"))
     return found
 
 
@@ -299,7 +299,7 @@ def describe(key: str, result: str = "fit") -> str:
     ``describe("parameters.C_H.value")``, ``describe("candidates[0].p_value", "diagnosis")``.
 
     ``result``: as for ``schema``. Raises ``InputError`` if the result has no such key."""
-    node = schema(result)
+    key, node = text_of("key", key), schema(result)
     for name in re.sub(r"\[\d*\]", "", key).split("."):
         while "items" in node:
             node = node["items"]

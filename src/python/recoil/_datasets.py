@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Sequence, Un
 
 from . import _recoil
 from ._errors import InputError, refuse, refuse_to_replace
-from ._options import numbers_of, plain
+from ._options import flag_of, numbers_of, path_of, plain, text_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -29,13 +29,23 @@ _UNITS = {
     "velocity_sd": "m/s", "setting_velocity_sd": "m/s",
     "restitution": "1", "restitution_sd": "1", "tangential_restitution": "1",
 }
+_ALIASES = {"V": "incident_velocity", "e": "restitution", "d": "diameter",
+            "V_sd": "velocity_sd", "e_sd": "restitution_sd"}
 _TEXTS = ("series", "setting", "launch")
 _COUNTS = ("events", "captured")
 
 
+def named(frame: "pandas.DataFrame") -> "pandas.DataFrame":
+    """``frame`` with the names of points.csv for V, e, d, V_sd and e_sd."""
+    short = {column: name for column, name in _ALIASES.items()
+             if column in frame.columns and name not in frame.columns}
+    return frame.rename(columns=short) if short else frame
+
+
 def _material(body: str, stated: Any) -> Any:
     """``stated``, or if it is a name, the material of that name in the table of materials."""
-    return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else plain(body, stated)
+    stated = plain(body, stated)
+    return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else stated
 
 
 def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
@@ -126,8 +136,8 @@ class Dataset:
     """
 
     def __init__(self, folder: PathLike) -> None:
-        self._data = _recoil.load_dataset(os.fspath(folder))
-        place = Path(folder)
+        place = Path(path_of("folder", folder))
+        self._data = _recoil.load_dataset(place)
         package = (place / "datapackage.json").read_text(encoding="utf-8-sig")
         self._package: dict[str, Any] = json.loads(package)
         self._csv = (place / self._package["resources"][0]["path"]).read_text(encoding="utf-8-sig")
@@ -159,7 +169,7 @@ class Dataset:
         ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
         ``captured``, ``setting``, ``setting_velocity_sd``, ``incidence_angle`` (its unit, ``"deg"``
         or ``"rad"``, has to be in ``units``), ``tangential_restitution`` and the conditions.
-        Missing values are empty cells.
+        Missing values are empty cells. ``V``, ``e``, ``d``, ``V_sd`` and ``e_sd`` are short names.
         Without ``series``, the points of each diameter form a series.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
@@ -171,10 +181,18 @@ class Dataset:
 
         Raises ``InputError``, which names the column and the row, counted from 0.
         """
+        if not hasattr(frame, "columns") or not hasattr(frame, "to_csv"):
+            refuse(f"{type(frame).__name__} is no frame of pandas", "give a DataFrame")
+        if like is not None and not isinstance(like, Dataset):
+            refuse(f"like is {type(like).__name__}", "give a Dataset")
+        units = plain("units", {} if units is None else units)
+        if not isinstance(units, dict):
+            refuse(f"units is {units}", "give a dictionary")
         own = _stated(like, particle=particle, surface=surface, provenance=provenance, **more)
+        frame = named(frame)
         said = dict(_UNITS)
-        for known in (like.units if like else {}, frame.attrs.get("units", {}), units or {}):
-            said.update(known)
+        for known in (like.units if like else {}, frame.attrs.get("units", {}), units):
+            said.update({_ALIASES.get(column, column): unit for column, unit in known.items()})
         if "series" not in frame.columns and "diameter" in frame.columns:
             frame = frame.assign(series=_series_of(frame["diameter"], said["diameter"]))
         fields = _fields(map(str, frame.columns), said)
@@ -222,6 +240,9 @@ class Dataset:
         if series is None:
             names = _series_of(diameters, "um")
         else:
+            series = plain("series", series)
+            if not isinstance(series, (str, list)):
+                refuse(f"series is {series}", "give a name, or a list with one per point")
             names = [series] * points if isinstance(series, str) else [str(one) for one in series]
         if len(names) != points:
             refuse(f"series has {len(names)} entries and V has {points}", "give one per point")
@@ -243,6 +264,7 @@ class Dataset:
     def _parsed(
         cls, name: str, title: str, fields: list[dict[str, str]], own: dict[str, Any], points: str
     ) -> "Dataset":
+        name, title = text_of("name", name), text_of("title", title)
         resource = {"name": "points", "path": "points.csv", "schema": {"fields": fields}}
         package = {"name": name, "title": title or name, "resources": [resource], "recoil": own}
         try:
@@ -286,11 +308,14 @@ class Dataset:
 
         Raises ``InputError`` if its files exist, unless ``replace`` is true.
         """
-        points = Path(folder) / self._package["resources"][0]["path"]
+        place = Path(path_of("folder", folder))
+        points = place / self._package["resources"][0]["path"]
+        replace = flag_of("replace", replace)
         if not replace:
-            refuse_to_replace(points, Path(folder) / "datapackage.json")
+            refuse_to_replace(points, place / "datapackage.json")
         package = json.dumps(self._package, indent=2, ensure_ascii=False) + "\n"
-        _recoil.write_whole_files([(points, self._csv), (Path(folder) / "datapackage.json", package)])
+        _recoil.write_whole_files(
+            [(points, self._csv), (place / "datapackage.json", package)], replace)
 
     @property
     def units(self) -> dict[str, str]:

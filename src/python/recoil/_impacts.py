@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Optional
 
 from . import _recoil
+from ._errors import refuse
 from ._facts import Facts, facts_of
-from ._options import numbers_of
+from ._options import flag_of, number_of, numbers_of, text_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,7 +44,9 @@ class Impacts:
         import numpy as np
 
         if self.slopes is None:
-            raise ValueError("the gradient was not asked for; simulate with gradient=True")
+            refuse("the gradient was not asked for", "simulate with gradient=True")
+        if text_of("name", name) not in self.slopes:
+            refuse(f"there is no parameter {name!r}", f"choose one of {', '.join(self.slopes)}")
         slope = self.slopes[name]
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(self.captured, 0.0, slope / (2.0 * self.restitution))
@@ -74,11 +77,16 @@ class Model:
         """
         import numpy as np
 
-        velocity, diameter = np.broadcast_arrays(numbers_of("V", V), numbers_of("d", d))
+        velocity, diameter = numbers_of("V", V), numbers_of("d", d)
+        try:
+            velocity, diameter = np.broadcast_arrays(velocity, diameter)
+        except ValueError:
+            refuse(f"V has the shape {velocity.shape} and d {diameter.shape}", "give arrays of one shape")
+        gradient = flag_of("gradient", gradient)
         shape = velocity.shape
         squared, captured, columns = self._model.simulate(
             np.ascontiguousarray(velocity).reshape(-1),
-            np.ascontiguousarray(diameter).reshape(-1), dataset, gradient)
+            np.ascontiguousarray(diameter).reshape(-1), text_of("dataset", dataset), gradient)
         slopes = None
         if gradient:
             names = [*self._model.labels, "incident_velocity", "diameter_um"]
@@ -102,4 +110,4 @@ class Model:
         Raises ``ComputationError`` if the impact has no solution.
         """
         return facts_of(
-            self._model.impact(float(numbers_of("V", V)), float(numbers_of("d", d)), dataset))
+            self._model.impact(number_of("V", V), number_of("d", d), text_of("dataset", dataset)))

@@ -34,7 +34,7 @@ def plain(name: str, value: Any, depth: int = 0) -> Any:
         return [plain(f"{name}[{i}]", one, depth + 1) for i, one in enumerate(value)]
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
-    if isinstance(value, str) and not any("\ud800" <= c <= "\udfff" for c in value):
+    if isinstance(value, str) and not any("\ud800" <= c <= "\udfff" or c == "\0" for c in value):
         return value
     if isinstance(value, bool) or (isinstance(value, int) and -(2**63) <= value < 2**63):
         return value
@@ -42,6 +42,45 @@ def plain(name: str, value: Any, depth: int = 0) -> Any:
         return float(value)
     shown = "beyond 64 bits" if isinstance(value, int) else ascii(str(value)[:40])
     refuse(f"{name} is {shown}", "give a finite number or a text")
+
+
+def path_of(name: str, value: Any) -> str:
+    """``value``, a text or a path, as a text. A number is no path, not even of an open file.
+
+    Raises ``InputError``.
+    """
+    if not isinstance(value, (str, os.PathLike)):
+        refuse(f"{name} is {type(value).__name__}", "give the path of a file or folder")
+    path = os.fsdecode(value)
+    try:
+        encoded = os.fsencode(path)
+    except UnicodeEncodeError:
+        encoded = b""
+    if not encoded or b"\0" in encoded:
+        refuse(f"{name} is {ascii(path)}, which names no file", "give the path of a file or folder")
+    return path
+
+
+def text_of(name: str, value: Any) -> str:
+    """``value``, which has to be a text. Raises ``InputError``."""
+    if not isinstance(value, str) or not isinstance(plain(name, value), str):
+        refuse(f"{name} is {type(value).__name__}", "give a text")
+    return value
+
+
+def flag_of(name: str, value: Any) -> bool:
+    """``value``, which has to be True or False. Raises ``InputError``."""
+    if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):
+        return bool(value)
+    refuse(f"{name} is {type(value).__name__}", "give True or False")
+
+
+def number_of(name: str, value: Any) -> float:
+    """``value``, which has to be one number. Raises ``InputError``."""
+    array = numbers_of(name, value)
+    if array.size != 1:
+        refuse(f"{name} has {array.size} entries", "give one number")
+    return float(array.reshape(-1)[0])
 
 
 def numbers_of(name: str, values: Any, *, boolean: bool = False) -> npt.NDArray[np.float64]:

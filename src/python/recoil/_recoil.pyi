@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 __version__: str
 
-def write_whole_files(files: list[tuple[Path, str]]) -> None: ...
+def write_whole_files(files: list[tuple[Path, str]], replace: bool) -> None: ...
+def read_text_file(file: str) -> str: ...
 
 class Dataset:
     id: str

@@ -14,7 +14,7 @@ from . import _recoil
 from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, takes_options
+from ._options import flag_of, given, path_of, takes_options, text_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -92,9 +92,9 @@ class _WithPictures(_Result):
         return self._pictures.titles()
 
     def svg(self, name: str) -> str:
-        """The picture ``name`` as SVG. Raises ``ValueError`` if there is none."""
-        if name not in self.pictures:
-            raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
+        """The picture ``name`` as SVG. Raises ``InputError`` if there is none."""
+        if text_of("name", name) not in self.pictures:
+            refuse(f"there is no picture {name!r}", f"choose one of {', '.join(self.pictures)}")
         return self._pictures.svg(name)
 
 
@@ -109,12 +109,18 @@ class _Reported(_WithPictures):
 
     def report(self, verbose: bool = False) -> str:
         """The text that the command prints; ``verbose``: with ``--verbose``."""
-        return str(self._compiled.text(True)) if verbose else self._text
+        return str(self._compiled.text(True)) if flag_of("verbose", verbose) else self._text
 
     def _repr_html_(self) -> str:
         if "_compiled" not in self.__dict__:
             return super()._repr_html_()
         return str(self._compiled.summary())
+
+
+def _next(text: str, call: str) -> str:
+    """A report whose last words name a call instead of a command."""
+    head, found, _ = text.rpartition("Next: recoil ")
+    return f"{head}Next: {call}.\n" if found else text
 
 
 def _numbers(values: list[Optional[float]]) -> Array:
@@ -185,6 +191,10 @@ class FitResult(_Reported):
         super().__init__(analysis)
         self._fitted = Model(analysis.model())
 
+    def __str__(self) -> str:
+        return _next(self._text, "result.diagnose(); as a page: result.save_page(file); "
+                                 "all details: result.report(verbose=True)")
+
     # -- methods --
 
     def simulate(self, V: npt.ArrayLike, d: npt.ArrayLike, *,  # noqa: N803
@@ -224,7 +234,7 @@ class FitResult(_Reported):
 
         ``sizes``: a CSV file with the columns diameter and count.
         """
-        return Prediction(self._compiled.predict(os.fspath(sizes), given("predict", locals())))
+        return Prediction(self._compiled.predict(path_of("sizes", sizes), given("predict", locals())))
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, ends of the recommended interval and
@@ -239,7 +249,8 @@ class FitResult(_Reported):
         return pandas.DataFrame.from_dict(rows, orient="index")
 
     def draws(self) -> dict[str, dict[str, Array]]:
-        """The draws of the posterior, in the format of ``arviz.from_dict(**result.draws())``.
+        """The draws of the posterior, in the format of ``arviz.from_dict(result.draws())``;
+        ArviZ 0.x takes them as ``arviz.from_dict(**result.draws())``.
 
         The arrays [chain, draw] are ``posterior`` (parameters and capture velocities in SI units)
         and ``sample_stats`` (``lp``, ln posterior; ``log_likelihood``; ``log_prior``).
@@ -268,15 +279,23 @@ class FitResult(_Reported):
                 "restitution": numpy.array(pointwise).T.reshape(*shape, len(pointwise))}
         return found
 
-    def save(self, folder: PathLike) -> Path:
-        """Writes ``folder``/fit.json, and returns its path."""
-        path = Path(folder) / "fit.json"
-        _recoil.write_whole_files([(path, self._json)])
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
+        """Writes ``folder``/fit.json, and returns its path.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "fit.json"
+        _recoil.write_whole_files([(path, self._json)], flag_of("replace", replace))
         return path
 
-    def save_page(self, file: PathLike) -> None:
-        """Writes the page of ``recoil report``: one HTML file that contains its pictures."""
-        _recoil.write_whole_files([(Path(file), self._compiled.page())])
+    def save_page(self, file: PathLike, *, replace: bool = False) -> None:
+        """Writes the page of ``recoil report``: one HTML file that contains its pictures.
+
+        Raises ``InputError`` for a file that this process has read, a points.csv or a
+        datapackage.json, unless ``replace`` is true.
+        """
+        path, replace = Path(path_of("file", file)), flag_of("replace", replace)
+        _recoil.write_whole_files([(path, self._compiled.page())], replace)
 
     def plot(self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = "") -> "Axes":
         """Draws with matplotlib on ``ax``, or on a new figure; returns the axes.
@@ -286,10 +305,12 @@ class FitResult(_Reported):
         rise of chi-square along ``parameter`` (the first free one by default) with the others
         refitted, and the rise at which the interval ends.
         """
+        if ax is not None and not hasattr(ax, "errorbar"):
+            refuse(f"ax is {type(ax).__name__}", "give axes of matplotlib")
         known = ("fit", "residuals", "profile")
-        if what not in known:
+        if text_of("what", what) not in known:
             refuse(f"what is {what!r}", f"choose one of {', '.join(known)}")
-        if parameter and what != "profile":
+        if text_of("parameter", parameter) and what != "profile":
             refuse(f"parameter is given, and what is {what!r}", 'give what="profile"')
         if ax is None:
             import matplotlib.pyplot as plt
@@ -413,6 +434,48 @@ class FitResult(_Reported):
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
         return self.simulate(V, d, dataset=dataset).restitution
 
+    @property
+    def aic(self) -> float:
+        """-2 ln L + 2 ``nvarys``; NaN without stated standard deviations, because every fit then
+        estimates its own noise (compare such fits by ``compare``)."""
+        return self._criterion(2.0)
+
+    @property
+    def bic(self) -> float:
+        """-2 ln L + ln(``ndata``) ``nvarys``; NaN where ``aic`` is."""
+        return self._criterion(math.log(self.ndata))
+
+    def _criterion(self, each: float) -> float:
+        deviance = self.goodness.minus_two_log_likelihood
+        return math.nan if deviance is None else float(deviance) + each * self.nvarys
+
+    @property
+    def rsquared(self) -> float:
+        """1 - sum (e - ``best_fit``)^2 / sum (e - mean e)^2 over the points with a measured e [1];
+        NaN if these have one value of e."""
+        import numpy as np
+
+        e = _column(self.residuals, "restitution")
+        measured = np.isfinite(e)
+        total = float(((e[measured] - e[measured].mean()) ** 2).sum()) if measured.any() else 0.0
+        left = float(((e - self.best_fit)[measured] ** 2).sum())
+        return 1.0 - left / total if total > 0.0 else math.nan
+
+    def ci_report(self) -> str:
+        """All intervals of the free parameters as a table in text."""
+        found = self.conf_interval()
+        kinds = [kind for kind in next(iter(found.values()), {})
+                 if any(one[kind] for one in found.values())]
+        rows = [["", "estimate", *kinds]]
+        for name, intervals in found.items():
+            ends = [f"[{one[0]:.3g}, {one[1]:.3g}]" if one else "-"
+                    for one in (intervals[kind] for kind in kinds)]
+            rows.append([f"{name} [{self.parameters[name].unit}]", f"{self.parameters[name].value:.3g}", *ends])
+        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+        head = f"{100 * self.options.level:g} % intervals"
+        return "\n".join([head, *("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+                                  for row in rows)])
+
     def fit_report(self) -> str:
         """``report(verbose=True)``."""
         return self.report(verbose=True)
@@ -447,12 +510,20 @@ class Diagnosis(_Reported):
     next_experiment: list[Facts]
     warnings: list[str]
 
-    def save(self, folder: PathLike) -> Path:
+    def __str__(self) -> str:
+        return _next(self._text, "result.save(folder) writes the extended model as a fit file; "
+                                 "all details: result.report(verbose=True)")
+
+    def save(self, folder: PathLike, *, replace: bool = False) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
-        ``folder``, and returns the path of the first."""
-        path = Path(folder) / "diagnosis.json"
-        extended = self._compiled.extended_toml(os.fspath(folder))
-        _recoil.write_whole_files([(path.with_name("extended.toml"), extended), (path, self._json)])
+        ``folder``, and returns the path of the first.
+
+        Raises ``InputError`` for a file that this process has read, unless ``replace`` is true.
+        """
+        path = Path(path_of("folder", folder)) / "diagnosis.json"
+        extended = self._compiled.extended_toml(os.fspath(path.parent))
+        _recoil.write_whole_files(
+            [(path.with_name("extended.toml"), extended), (path, self._json)], flag_of("replace", replace))
         return path
 
     def __repr__(self) -> str:
@@ -510,10 +581,11 @@ class Pairing(_Result):
 
         Raises ``InputError`` if the file exists, unless ``replace`` is true.
         """
-        path = Path(file)
+        path = Path(path_of("file", file))
+        replace = flag_of("replace", replace)
         if not replace:
             refuse_to_replace(path)
-        _recoil.write_whole_files([(path, self._points)])
+        _recoil.write_whole_files([(path, self._points)], replace)
         return path
 
     def __repr__(self) -> str:

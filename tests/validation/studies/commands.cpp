@@ -24,6 +24,7 @@
 #include "validation/studies/bent_truth.hpp"
 #include "validation/studies/coverage_noise.hpp"
 #include "validation/studies/coverage_page.hpp"
+#include "validation/studies/hidden_effects_benchmark.hpp"
 #include "validation/studies/hidden_effects_tally.hpp"
 #include "validation/studies/markdown.hpp"
 #include "validation/studies/pairing_study.hpp"
@@ -57,6 +58,7 @@ struct Options {
   std::string only;
   std::string binary;
   bool baseline = false;
+  std::string sets;  ///< a folder for the data sets, for other methods
 
   int rank_sets = 250;
   std::uint64_t rank_seed = 20260101;
@@ -131,7 +133,9 @@ void merge_study(const Options& options) {
 }
 
 void make_one(const Study& study) {
-  if (state_of(".", study) == StudyState::current) {
+  const fs::path sets = study.name == "hidden-effects" ? "build/hidden-effects" : "";
+  const bool has_sets = sets.empty() || fs::exists(sets / "truth");
+  if (state_of(".", study) == StudyState::current && has_sets) {
     fmt::print("  current {}\n", study.result());
     return;
   }
@@ -139,6 +143,7 @@ void make_one(const Study& study) {
   Words words(std::istream_iterator<std::string>(split), {});
   const std::string key = study_key(".", study.command);
   words.insert(words.end(), {"--out", study.result(), "--keep", "build/studies/" + key});
+  if (!sets.empty()) words.insert(words.end(), {"--sets", sets.string()});
   run_again(study.name, words);
   fmt::print("  wrote   {}\n", study.result());
 }
@@ -269,6 +274,7 @@ void study_hidden_effects(const Options& options) {
   }
   const std::vector<hidden::Answered> answers = answers_to(orders, options);
   if (wrote_part(options)) return;
+  if (!options.sets.empty()) hidden::write_benchmark(answers, options.sets, options.threads);
   publish(options, hidden::tally_of(answers, orders.size(), options.size));
 }
 
@@ -430,6 +436,8 @@ void add_hidden_effects(CLI::App& program, Options& options) {
   command->add_option("--only", options.only, "only orders whose key contains this");
   command->add_flag("--baseline", options.baseline,
                     "also ask stepwise AICc and the correlation with a Gaussian process");
+  command->add_option("--sets", options.sets,
+                      "write the data sets here, for other methods, with the truth beside them");
   // By default the command that was built together with this program.
   options.binary = (fs::read_symlink("/proc/self/exe").parent_path() / "recoil").string();
   command->add_option("--recoil", options.binary, "the command to be judged");
@@ -515,7 +523,7 @@ Words plain_words(const Words& words) {
   Words plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--out" || words[i] == "--keep" || words[i] == "--threads" ||
-        words[i] == "--shard") {
+        words[i] == "--shard" || words[i] == "--sets") {
       ++i;
     } else {
       plain.push_back(words[i]);

@@ -30,7 +30,7 @@ CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::
   }
   CoverageResult result = measure();
   std::filesystem::create_directories(folder);
-  write_whole_file(file, json_text(as_json(result, NonFinite::word)));
+  write_whole_file(file, json_text(as_json(result, NonFinite::word)), Replacing::data);
   return result;
 }
 

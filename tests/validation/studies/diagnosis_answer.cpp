@@ -195,7 +195,8 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {
-    write_whole_file(kept_file(order, keep), json_text(as_json(a, NonFinite::word)));
+    write_whole_file(kept_file(order, keep), json_text(as_json(a, NonFinite::word)),
+                     Replacing::data);
   }
   return a;
 }

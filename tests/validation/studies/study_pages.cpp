@@ -32,7 +32,7 @@ void write_page(const fs::path& json, const Document& page) {
 
 void write_picture(const fs::path& json, const plot::Picture& picture) {
   fs::path file = json;
-  write_whole_file(file.replace_extension(".svg"), plot::draw_svg(picture) + "\n");
+  write_whole_file(file.replace_extension(".svg"), plot::draw_svg(picture) + "\n", Replacing::data);
 }
 
 template <class Result>
