@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "data/text.hpp"
 #include "core/files.hpp"
+#include "data/text.hpp"
 #include "experiment/import_table.hpp"
 #include "experiment/recording.hpp"
 
