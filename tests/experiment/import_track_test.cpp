@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,36 @@ TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
                                         &recoil::ImportNote::remark);
   ASSERT_NE(mended, made.notes.end());
   EXPECT_EQ(mended->count, 2U);
+}
+
+/// The shipped points are those that the shipped tracks give.
+TEST(Track, TheShippedTracksGiveTheShippedPoints) {
+  for (const char* const surface : {"table", "floor", "racket"}) {
+    const auto folder =
+        std::filesystem::path(RECOIL_SOURCE_DIR) / fmt::format("datasets/table-tennis-{}", surface);
+    std::vector<std::filesystem::path> tracks;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "tracks")) {
+      tracks.push_back(entry.path());
+    }
+    std::ranges::sort(tracks);
+    const Place place;
+    auto request = table_tennis(place, "");
+    request.file = tracks.front();
+    request.more_files.assign(tracks.begin() + 1, tracks.end());
+    request.map = {"pixel=2"};
+    request.fps = 100.0;
+    request.scale = "1.50494mm";
+    request.series = fmt::format("ball on {}", surface);
+    request.particle = "material=celluloid,density=80.57,youngs_modulus=2e9,poisson_ratio=0.35";
+    const Dataset made = recoil::import_points(request).dataset;
+    const Dataset shipped = recoil::load_dataset(folder);
+    ASSERT_EQ(made.points.size(), shipped.points.size()) << surface;
+    for (std::size_t k = 0; k < made.points.size(); ++k) {
+      EXPECT_NEAR(made.points[k].restitution, shipped.points[k].restitution, 1e-6);
+      EXPECT_NEAR(made.points[k].incident_velocity, shipped.points[k].incident_velocity, 1e-6);
+    }
+    EXPECT_EQ(shipped.provenance, recoil::Provenance::measured);
+  }
 }
 
 TEST(Track, TheStatedErrorsHoldTheTruth) {
