@@ -202,7 +202,7 @@ enum Record : std::size_t {
   bound_sheet = 0x0085,
   file_pass = 0x002F,
   date_1904 = 0x0022,
-  cell_format = 0x041E,
+  format_record = 0x041E,
   style = 0x00E0,
   shared_texts = 0x00FC,
   continued = 0x003C,
@@ -354,7 +354,7 @@ class Excel97Reader {
   void read_global(std::size_t kind, const Bytes& data, std::size_t at) {
     if (kind == file_pass) errors_.fail_encrypted();
     if (kind == date_1904) epoch_ = first_day(data.u16(0) == 1);
-    if (kind == cell_format) dates_[data.u16(0)] = shows_date(text_at(data, at, 2, false));
+    if (kind == format_record) dates_[data.u16(0)] = shows_date(text_at(data, at, 2, false));
     if (kind == style) formats_.push_back(data.u16(2));
     if (kind == bound_sheet && data.u8(5) == 0) {  // no chart
       sheets_.push_back({text_at(data, at, 6, true), data.u8(4) != 0});
