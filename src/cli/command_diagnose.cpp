@@ -23,6 +23,16 @@ DiagnosisOptions diagnosis_options(const GivenOptions& given, const FitSpec& spe
 }
 
 /// Identifies the rows of the calibration.
+/// Are all spheres balls, for which e is the answer and pairs of causes are not sought unasked?
+bool only_balls(const std::vector<Dataset>& datasets) {
+  constexpr double smallest = 1e-3;  // [m]
+  return std::ranges::all_of(datasets, [](const Dataset& dataset) {
+    return dataset.system.adhesion_energy.value_or(1.0) == 0.0 &&
+           std::ranges::all_of(dataset.points,
+                               [](const ImpactPoint& point) { return point.diameter >= smallest; });
+  });
+}
+
 Origin origin_of_calibration(const GivenOptions& given, const FitInputs& inputs,
                              const Calibration& calibration) {
   const ShardOfCommand shard(given);
@@ -113,6 +123,7 @@ void run_diagnosis(const GivenOptions& given) {
     claim.emplace(result_in(folder));
   }
   DiagnosisOptions options = diagnosis_options(given, inputs.spec);
+  options.single_causes = only_balls(inputs.datasets) && !given.has("--causes");
   options.kept = rows_for(given, inputs);
   Diagnosis diagnosis =
       resumable(*options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });

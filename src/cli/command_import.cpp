@@ -1,31 +1,58 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
+#include "data/ball_table.hpp"
+#include "data/contact.hpp"
+#include "data/limits.hpp"
+#include "data/material_table.hpp"
+#include "data/text.hpp"
 #include "experiment/import.hpp"
 #include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_restitution.hpp"
 
 namespace recoil {
 namespace {
 
-ImportRequest request_of(const GivenOptions& given) {
+/// What `import` and `bounce` have in common.
+ImportRequest reading_of(const GivenOptions& given) {
   ImportRequest r;
   const std::vector<std::string> files = given.texts("FILE");
   r.file = files.front();
   r.more_files.assign(files.begin() + 1, files.end());
   r.format = *value_named<ImportFormat>(given.text("--format"));
-  r.into = given.text("--into");
   r.sheet = given.text("--sheet");
-  r.replace = given.has("--replace");
   r.map = given.texts("--map");
   r.decimal_comma = given.has("--decimal-comma");
+  r.transpose = given.has("--transpose");
+  r.series = given.text("--series");
+  r.captured_below = given.number_if_any("--captured-below").value_or(0.0);
+  r.drop_error = given.text("--drop-error");
+  r.rebound_error = given.text("--rebound-error");
+  r.time_error = given.text("--time-error");
+  r.average = given.has("--average");
+  r.gravity = given.number("--gravity");
+  r.fps = given.number_if_any("--fps");
+  r.scale = given.text("--scale");
+  r.conditions = given.texts("--condition");
+  if (given.has("--ambient-pressure")) {
+    r.conditions.push_back("ambient_pressure=" + given.text("--ambient-pressure"));
+  }
+  return r;
+}
+
+ImportRequest request_of(const GivenOptions& given) {
+  ImportRequest r = reading_of(given);
+  r.into = given.text("--into");
+  r.replace = given.has("--replace");
   r.sd_of = given.text("--sd-of");
   r.diameters = given.texts("--diameter");
   r.diameter_error = given.text("--diameter-error");
-  r.series = given.text("--series");
   r.particle = given.text("--particle");
   r.surface = given.text("--surface");
   r.like = given.text("--like");
@@ -36,20 +63,51 @@ ImportRequest request_of(const GivenOptions& given) {
   r.error_series = given.texts("--error-series");
   r.reading_error = given.text("--reading-error");
   r.scatter = given.text("--scatter");
-  r.captured_below = given.number_if_any("--captured-below").value_or(0.0);
-  r.drop_error = given.text("--drop-error");
-  r.rebound_error = given.text("--rebound-error");
-  r.time_error = given.text("--time-error");
-  r.average = given.has("--average");
-  r.gravity = given.number("--gravity");
-  r.fps = given.number_if_any("--fps");
-  r.scale = given.text("--scale");
   r.method = given.text("--method");
-  r.conditions = given.texts("--condition");
-  if (given.has("--ambient-pressure")) {
-    r.conditions.push_back("ambient_pressure=" + given.text("--ambient-pressure"));
-  }
   return r;
+}
+
+/// The e of the points, which is the answer for balls.
+void print_summary(const Dataset& dataset, bool adhesion) {
+  for (const Sentence& sentence : restitution_sentences({dataset}, adhesion)) {
+    print_line(plain_text(sentence));
+  }
+}
+
+/// Sets the diameter of the ball. @return its density for the drag of air [kg/m3]
+double set_ball(const GivenOptions& given, ImportRequest& request) {
+  const std::string name = given.text("--ball");
+  std::optional<double> diameter = given.number_if_any("--diameter");
+  std::optional<double> mass = given.number_if_any("--mass");
+  const auto materials = tabled_materials();
+  const auto material = std::ranges::find(materials, name, &TabledMaterial::name);
+  double density = material == materials.end() ? 0.0 : material->density;
+  if (!name.empty() && material == materials.end()) {
+    const TabledBall& ball = tabled_ball(name);
+    if (!diameter) diameter = ball.diameter;
+    if (!mass) mass = ball.mass;
+  }
+  constexpr double any_size = 0.01;  // [m], where nothing depends on it
+  const bool vacuum = given.number_if_any("--ambient-pressure").value_or(1.0) == 0.0;
+  if (!vacuum && (!diameter || (!mass && density == 0.0))) {
+    throw InputError(
+        {}, !diameter ? "the size of the ball is not known" : "the mass of the ball is not known",
+        "the drag of air depends on size and mass",
+        "give --ball NAME (table-tennis, tennis, golf, squash), or --diameter and "
+        "--mass, or --ambient-pressure 0 to neglect the air");
+  }
+  const double size = diameter.value_or(any_size);
+  request.diameters = {fmt::format("{:.17g}m", size)};
+  if (mass) density = *mass / sphere_mass(size, 1.0);
+  return density > 0.0 ? density : limits::density.upper;
+}
+
+void run_bounce(const GivenOptions& given) {
+  ImportRequest request = reading_of(given);
+  const double density = set_ball(given, request);
+  const ImportResult result = read_bounces(request, density);
+  print_summary(result.dataset, false);
+  for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
 }
 
 void run_import(const GivenOptions& given) {
@@ -57,6 +115,8 @@ void run_import(const GivenOptions& given) {
   require_writable_folder(request.into);
   const Claim claim(request.into / "points.csv");
   const ImportResult result = import_points(request);
+  const bool adhesion = result.dataset.system.adhesion_energy.value_or(1.0) > 0.0;
+  print_summary(result.dataset, adhesion);
   print_text("{}", dataset_text(result.dataset));
   for (const ImportNote& note : result.notes) print_text("note: {}\n", note_sentence(note));
   print_text("{}: written\n", request.into.string());
@@ -74,10 +134,10 @@ void add_import(Program& program) {
       "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
 Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
 bounces), track (heights over time), rest (drop heights and times to rest), tops (heights of
-successive tops), blocks (times of several bounces together) and csv. --map assigns columns to
-quantities, with units: um, mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere, a number without a unit
-counts in um if it is a diameter, otherwise in the SI unit. import overwrites points only with
---replace.
+successive tops), blocks (times of several bounces together), recording (a sound file) and csv.
+--map assigns columns to quantities, with units: um, mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere,
+a number without a unit counts in um if it is a diameter, otherwise in the SI unit. import
+overwrites points only with --replace.
 
   recoil import fig7.csv --format webplotdigitizer --into datasets/mine \
     --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like datasets/wall1990-mica
@@ -87,9 +147,24 @@ counts in um if it is a diameter, otherwise in the SI unit. import overwrites po
     --map launch=run,interval=t:s --time-error 1ms --like datasets/ball
   recoil import ball.txt --format track --into datasets/ball3 --diameter 40mm \
     --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete
+  recoil import bounces.wav --format recording --into datasets/ball4 --like datasets/ball
   recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \
     --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)",
       run_import);
+}
+
+void add_bounce(Program& program) {
+  program.command("bounce", "the restitution of a ball from heights, times or a track", R"(
+Prints the mean e with its interval, its dependence on the velocity and the differences between
+series, and writes nothing. The ball needs its size and mass for the drag of air, no other constant.
+Several bounces of one drop are a launch (--map launch=COLUMN); series=COLUMN names what is to be
+compared: balls, floors, temperatures.
+
+  recoil bounce drops.csv --format heights --ball tennis \
+    --map drop_height=h1:cm,rebound_height=h2:cm --rebound-error 5mm
+  recoil bounce times.csv --format intervals --diameter 8mm --mass 0.0021 \
+    --map launch=run,interval=t:s --time-error 1ms)",
+                  run_bounce);
 }
 
 }  // namespace recoil

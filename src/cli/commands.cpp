@@ -38,6 +38,7 @@ void add_commands(Program& program) {
   add_coverage(program);
   add_init(program);
   add_import(program);
+  add_bounce(program);
   add_materials(program);
   add_predict(program);
   add_export(program);

@@ -24,6 +24,7 @@ void add_diagnose(Program& program);
 void add_coverage(Program& program);
 void add_init(Program& program);
 void add_import(Program& program);
+void add_bounce(Program& program);
 void add_materials(Program& program);
 void add_predict(Program& program);
 void add_export(Program& program);

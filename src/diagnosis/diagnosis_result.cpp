@@ -112,6 +112,16 @@ bool series_differ(const Diagnosis& diagnosis) {
   return summarise_restitution(diagnosis.datasets).series.p_value.value_or(1.0) < level;
 }
 
+bool repeats_scatter(const Diagnosis& diagnosis) {
+  constexpr double level = 0.01;
+  constexpr double one_velocity = 1.5;  // ratio of velocities over which e hardly changes
+  if (diagnosis.verdict() != Verdict::unexplained || !has_one_size(diagnosis.base.data))
+    return false;
+  const RestitutionSummary summary = summarise_restitution(diagnosis.datasets);
+  return summary.scatter && summary.scatter->p_value < level &&
+         summary.velocities[1] < one_velocity * summary.velocities[0];
+}
+
 bool simulations_failed(const Structure& structure) {
   return structure.failed > 0.01 * (structure.simulated + structure.failed);
 }

@@ -192,6 +192,9 @@ bool tests_the_curve(const Diagnosis& diagnosis);
 
 /// Do series of one size differ at the same velocities in a way that no named cause explains?
 bool series_differ(const Diagnosis& diagnosis);
+/// Do points of one size at nearly one velocity scatter more than they state, without a named
+/// cause?
+bool repeats_scatter(const Diagnosis& diagnosis);
 
 /// Did the fits of more than 1 % of the simulated data sets fail, so that a reader must know?
 bool simulations_failed(const Structure& structure);

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "estimate/input_errors.hpp"
+#include "estimate/instant_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -84,31 +85,20 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
   return several;
 }
 
-/// Finds successive bounces of a launch that state their errors: V of each equals the rebound
-/// velocity of the one before, up to the drag of the air.
+/// Numbers the successive bounces of launches, which share instants.
 void number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
-  constexpr double drag = 0.02;  // largest relative loss of speed in flight
   std::size_t launches = 0;
   std::size_t first = 0;
   for (const Dataset& dataset : datasets) {
-    std::map<std::string_view, std::size_t> last;  // previous point of each launch
-    for (std::size_t k = 0; k < dataset.points.size(); ++k) {
-      const ImpactPoint& p = dataset.points[k];
-      if (p.launch.empty() || !p.restitution_sd || !(p.restitution > 0.0)) continue;
-      Observation& point = data.points[first + k];
-      const auto before = last.find(p.launch);
-      if (before != last.end()) {
-        Observation& previous = data.points[first + before->second];
-        const double rebound = previous.restitution * previous.velocity;
-        if (std::abs(rebound / point.velocity - 1.0) < drag) {
-          if (previous.launch == Observation::no_launch) previous.launch = launches++;
-          point.launch = previous.launch;
-          point.bounce = previous.bounce + 1;
-        }
-      }
-      last[p.launch] = k;
+    std::size_t own = 0;
+    for (const LinkedBounce& linked : linked_bounces(dataset)) {
+      Observation& point = data.points[first++];
+      if (linked.launch == Observation::no_launch) continue;
+      point.launch = launches + linked.launch;
+      point.bounce = linked.bounce;
+      own = std::max(own, linked.launch + 1);
     }
-    first += dataset.points.size();
+    launches += own;
   }
 }
 

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "core/numerics.hpp"
 #include "core/statistics.hpp"
+#include "estimate/instant_errors.hpp"
 #include "estimate/reweighting.hpp"
 
 namespace recoil {
@@ -20,14 +23,20 @@ namespace {
 constexpr double tail = 0.5 * (1.0 - summary_level);
 constexpr double lack_of_fit_level = 0.05;
 constexpr double size_factor = 1.2;  // diameters within it are one size
+// A standard deviation from four degrees of freedom is known within a factor of 2.9 (95 %).
+constexpr std::size_t fewest_launches = 5;
+constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 /// One point that rebounded.
 struct Reading {
+  const ImpactPoint* point = nullptr;
   double e = 0.0;
   double sd = 0.0;  ///< stated; 0: none
   double velocity = 0.0;
-  std::size_t series = 0;  ///< index among all series of all datasets
-  std::size_t place = 0;   ///< index of its setting among all settings
+  std::size_t series = 0;     ///< index among all series of all datasets
+  std::size_t place = 0;      ///< index of its setting among all settings
+  std::size_t launch = none;  ///< index among all launches
+  LinkedBounce linked;        ///< its place in a run of bounces that share instants
 };
 
 bool rebounded(const ImpactPoint& point) {
@@ -46,58 +55,146 @@ std::optional<double> usual_error(const std::vector<Dataset>& datasets) {
   return median(std::move(stated));
 }
 
-/// A series at one diameter.
+/// A series at one size.
 struct Group {
   std::size_t dataset = 0;
   std::size_t series = 0;
-  double diameter = 0.0;
-  std::map<std::tuple<std::string, double>, std::vector<const ImpactPoint*>> settings;
+  std::size_t size = 0;   ///< index of the size within its dataset
+  double diameter = 0.0;  ///< mean [m]
+  std::map<std::tuple<std::string, double>, std::vector<Reading>> settings;
 };
 
-std::vector<Group> groups_of(const std::vector<Dataset>& datasets) {
-  std::map<std::tuple<std::size_t, std::size_t, double>, Group> groups;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    for (const ImpactPoint& point : datasets[d].points) {
-      if (!rebounded(point)) continue;
-      Group& group = groups[{d, point.series, point.diameter}];
-      group.dataset = d;
-      group.series = point.series;
-      group.diameter = point.diameter;
-      const bool named = !point.setting.empty();
-      group.settings[{point.setting, named ? 0.0 : point.incident_velocity}].push_back(&point);
+/// The number of the size of every diameter of a dataset.
+std::map<double, std::size_t> sizes_of(const Dataset& dataset) {
+  std::map<double, std::size_t> sizes;
+  for (const ImpactPoint& point : dataset.points) sizes[point.diameter] = 0;
+  double first = 0.0;
+  std::size_t size = none;
+  for (auto& [diameter, number] : sizes) {
+    if (size == none || diameter > size_factor * first) {
+      first = diameter;
+      ++size;
     }
+    number = size;
   }
-  std::vector<Group> found;
-  for (auto& [key, group] : groups) found.push_back(std::move(group));
-  return found;
+  return sizes;
 }
 
 /// @param usual error of a point that states none
-RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*>& points,
-                        std::optional<double> usual) {
+std::vector<Group> groups_of(const std::vector<Dataset>& datasets, std::optional<double> usual) {
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Group> groups;
+  std::map<std::tuple<std::size_t, std::size_t, std::string_view>, std::size_t> launches;
+  std::size_t runs = 0;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    const std::map<double, std::size_t> sizes = sizes_of(datasets[d]);
+    const std::vector<LinkedBounce> linked = linked_bounces(datasets[d]);
+    std::size_t own_runs = 0;
+    const bool launched = std::ranges::any_of(
+        datasets[d].points, [](const ImpactPoint& point) { return !point.launch.empty(); });
+    for (std::size_t i = 0; i < linked.size(); ++i) {
+      const ImpactPoint& point = datasets[d].points[i];
+      if (!rebounded(point)) continue;
+      const std::size_t size = sizes.at(point.diameter);
+      Group& group = groups[{d, point.series, size}];
+      group.dataset = d;
+      group.series = point.series;
+      group.size = size;
+      Reading reading;
+      reading.point = &point;
+      reading.e = point.restitution;
+      reading.sd = point.restitution_sd.value_or(usual.value_or(0.0));
+      reading.velocity = point.incident_velocity;
+      if (!point.launch.empty()) {
+        reading.launch =
+            launches.try_emplace({d, point.series, point.launch}, launches.size()).first->second;
+      } else if (launched) {
+        reading.launch = none - 1 - i;  // one of its own
+      }
+      if (linked[i].launch != Observation::no_launch) {
+        reading.linked = {runs + linked[i].launch, linked[i].bounce};
+        own_runs = std::max(own_runs, linked[i].launch + 1);
+      }
+      const bool named = !point.setting.empty();
+      group.settings[{point.setting, named ? 0.0 : point.incident_velocity}].push_back(reading);
+    }
+    runs += own_runs;
+  }
+  std::vector<Group> found;
+  for (auto& [key, group] : groups) {
+    double count = 0.0;
+    for (const auto& [setting, readings] : group.settings) {
+      for (const Reading& reading : readings) {
+        count += 1.0;
+        group.diameter += (reading.point->diameter - group.diameter) / count;
+      }
+    }
+    found.push_back(std::move(group));
+  }
+  return found;
+}
+
+/// The launches of readings; 0 unless all have one.
+std::size_t count_launches(const std::vector<Reading>& readings) {
+  std::set<std::size_t> launches;
+  for (const Reading& r : readings) {
+    if (r.launch == none) return 0;
+    launches.insert(r.launch);
+  }
+  return launches.size();
+}
+
+/// Variance of the sum of e over readings from their stated errors.
+double variance_of_sum(const std::vector<Reading>& readings) {
+  double sum = 0.0;
+  std::map<std::pair<std::size_t, std::size_t>, double> instants;  // loads by run and instant
+  for (const Reading& r : readings) {
+    if (r.linked.launch == Observation::no_launch) {
+      sum += r.sd * r.sd;
+      continue;
+    }
+    const std::array<double, 3> part = instant_coefficients(r.e);
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      instants[{r.linked.launch, r.linked.bounce + k}] += r.sd * part[k];
+    }
+  }
+  for (const auto& [instant, load] : instants) sum += load * load;
+  return sum;
+}
+
+RestitutionMean mean_of(const Group& group, const std::vector<Reading>& readings) {
   RestitutionMean found;
   found.dataset = group.dataset;
   found.series = group.series;
   found.diameter = group.diameter;
   std::vector<double> e;
-  double stated = 0.0;                   // sum of variances
   std::map<std::string, double> shared;  // by setting: sum of the shared errors of e
-  for (const ImpactPoint* point : points) {
-    e.push_back(point->restitution);
-    stated += std::pow(point->restitution_sd.value_or(usual.value_or(0.0)), 2);
-    shared[point->setting] +=
-        point->restitution * point->setting_velocity_sd.value_or(0.0) / point->incident_velocity;
+  for (const Reading& r : readings) {
+    e.push_back(r.e);
+    const double of_setting = r.point->setting_velocity_sd.value_or(0.0);
+    if (of_setting > 0.0) shared[r.point->setting] += r.e * of_setting / r.velocity;
   }
   const auto n = static_cast<double>(e.size());
+  const std::size_t launches = count_launches(readings);
   found.points = static_cast<int>(e.size());
+  found.launches = static_cast<int>(launches);
   found.value = mean(e);
   double of_settings = 0.0;
   for (const auto& [setting, error] : shared) of_settings += error * error;
   const double normal = gsl_cdf_ugaussian_Qinv(tail);
-  double half = usual ? normal * std::sqrt(stated + of_settings) / n : 0.0;
-  const double scatter = standard_deviation(e);
-  if (scatter > least_noise) {
-    half = std::max(half, std::hypot(gsl_cdf_tdist_Qinv(tail, n - 1.0) * scatter / std::sqrt(n),
+  const double stated = std::sqrt(variance_of_sum(readings));
+  double half = stated > 0.0 ? normal * std::hypot(stated, std::sqrt(of_settings)) / n : 0.0;
+  if (standard_deviation(e) > least_noise) {
+    double error = standard_deviation(e) / std::sqrt(n);
+    double freedom = n - 1.0;
+    if (launches >= fewest_launches) {
+      std::map<std::size_t, double> sums;
+      for (const Reading& r : readings) sums[r.launch] += r.e - found.value;
+      double square = 0.0;
+      for (const auto& [launch, sum] : sums) square += sum * sum;
+      freedom = static_cast<double>(launches) - 1.0;
+      error = std::sqrt(square * (freedom + 1.0) / freedom) / n;
+    }
+    half = std::max(half, std::hypot(gsl_cdf_tdist_Qinv(tail, freedom) * error,
                                      normal * std::sqrt(of_settings) / n));
   }
   if (half > 0.0) {
@@ -109,51 +206,50 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   return found;
 }
 
-double mean_velocity(const std::vector<const ImpactPoint*>& points) {
+double mean_velocity(const std::vector<Reading>& readings) {
   double sum = 0.0;
-  for (const ImpactPoint* point : points) sum += point->incident_velocity;
-  return sum / static_cast<double>(points.size());
+  for (const Reading& r : readings) sum += r.velocity;
+  return sum / static_cast<double>(readings.size());
 }
 
-void add_means(const Group& group, std::optional<double> usual,
-               std::vector<RestitutionMean>& means) {
-  std::vector<const ImpactPoint*> all;
+void add_means(const Group& group, std::vector<RestitutionMean>& means) {
+  std::vector<Reading> all;
   bool repeated = false;
   for (const auto& [key, points] : group.settings) {
     all.insert(all.end(), points.begin(), points.end());
     repeated = repeated || points.size() > 1;
   }
-  means.push_back(mean_of(group, all, usual));
+  means.push_back(mean_of(group, all));
   if (!repeated || group.settings.size() < 2) return;
   for (const auto& [key, points] : group.settings) {
-    RestitutionMean of_setting = mean_of(group, points, usual);
+    RestitutionMean of_setting = mean_of(group, points);
     of_setting.setting = std::get<0>(key);
     of_setting.velocity = mean_velocity(points);
     means.push_back(std::move(of_setting));
   }
 }
 
-RestitutionRange::End end_of(const std::vector<const ImpactPoint*>& points) {
-  RestitutionRange::End end{mean_velocity(points)};
+RestitutionRange::End end_of(const std::vector<Reading>& readings) {
+  RestitutionRange::End end{mean_velocity(readings)};
   double variance = 0.0;
   bool stated = true;
-  for (const ImpactPoint* point : points) {
-    end.value += point->restitution;
-    variance += std::pow(point->restitution_sd.value_or(0.0), 2);
-    stated = stated && point->restitution_sd.has_value();
+  for (const Reading& r : readings) {
+    end.value += r.e;
+    variance += std::pow(r.point->restitution_sd.value_or(0.0), 2);
+    stated = stated && r.point->restitution_sd.has_value();
   }
-  const auto n = static_cast<double>(points.size());
+  const auto n = static_cast<double>(readings.size());
   end.value /= n;
   end.error = stated ? std::sqrt(variance) / n : 0.0;
   return end;
 }
 
 std::vector<RestitutionRange> ranges_of(const std::vector<Group>& groups) {
-  std::map<std::pair<std::size_t, double>, RestitutionRange> sizes;
+  std::map<std::pair<std::size_t, std::size_t>, RestitutionRange> sizes;
   for (const Group& group : groups) {
-    RestitutionRange& range = sizes[{group.dataset, group.diameter}];
+    RestitutionRange& range = sizes[{group.dataset, group.size}];
+    if (range.settings == 0) range.diameter = group.diameter;
     range.dataset = group.dataset;
-    range.diameter = group.diameter;
     for (const auto& [key, points] : group.settings) {
       const RestitutionRange::End end = end_of(points);
       const bool first = range.settings++ == 0;
@@ -178,7 +274,8 @@ class Line {
  public:
   Line(const std::vector<Reading>& readings, std::size_t series, Eigen::Index degree = 1)
       : stated_(std::all_of(readings.begin(), readings.end(),
-                            [](const Reading& r) { return r.sd > 0.0; })) {
+                            [](const Reading& r) { return r.sd > 0.0; })),
+        launches_(count_launches(readings)) {
     const auto n = static_cast<Eigen::Index>(readings.size());
     const auto s = static_cast<Eigen::Index>(series);
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n, s + degree);
@@ -191,26 +288,37 @@ class Line {
     double spread = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Reading& r = readings[static_cast<std::size_t>(i)];
-      const double weight = stated_ ? 1.0 / r.sd : 1.0;
       const double log_v = std::log10(r.velocity);
       spread = std::max(spread, std::abs(log_v - middle[r.series] / count[r.series]));
-      X(i, static_cast<Eigen::Index>(r.series)) = weight;
+      X(i, static_cast<Eigen::Index>(r.series)) = 1.0;
       for (Eigen::Index k = 1; k <= degree; ++k) {
-        X(i, s + k - 1) = weight * std::pow(log_v, static_cast<double>(k));
+        X(i, s + k - 1) = std::pow(log_v, static_cast<double>(k));
       }
-      y(i) = weight * r.e;
+      y(i) = r.e;
     }
     sloped_ = spread > 1e-9;
     if (!sloped_) X.conservativeResize(Eigen::NoChange, s);
     columns_ = X.cols();
     dof_ = static_cast<int>(n - columns_);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
-    solvable_ = dof_ >= 0 && qr.rank() == X.cols();
+    solve(readings, X, y, 0.0);
     if (!solvable_) return;
-    coefficients_ = qr.solve(y);
-    inverse_ = (X.transpose() * X).inverse();
-    rest_ = y - X * coefficients_;
-    variance_ = dof_ > 0 ? rest_.squaredNorm() / dof_ : 0.0;
+    if (stated_ && dof_ > 0) {
+      stated_scatter_ = {std::sqrt(square() / dof_), gsl_cdf_chisq_Q(square(), dof_)};
+    }
+    const bool shared = std::ranges::any_of(
+        readings, [](const Reading& r) { return r.linked.launch != Observation::no_launch; });
+    // An independent error beside those of shared instants.
+    constexpr double largest = 1.0;
+    const auto excess = [&](double error) {
+      solve(readings, X, y, error);
+      return square() - dof_;
+    };
+    if (stated_ && shared && dof_ > 0 && square() > dof_ && excess(largest) < 0.0) {
+      excess(find_root(excess, 0.0, largest, 1e-9));
+    } else if (shared) {
+      solve(readings, X, y, 0.0);
+    }
+    variance_ = dof_ > 0 ? square() / dof_ : 0.0;
     const double unit = stated_ ? 1.0 : least_noise;
     scatters_ = dof_ > 0 && (stated_ || variance_ > unit * unit);
   }
@@ -221,6 +329,7 @@ class Line {
   double square() const { return rest_.squaredNorm(); }
   double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
   Eigen::Index columns() const { return columns_; }
+  const std::optional<LineScatter>& stated_scatter() const { return stated_scatter_; }
   /// Is an error known, stated or from the scatter?
   bool has_errors() const { return solvable_ && (stated_ || scatters_); }
   std::string missing() const {
@@ -228,11 +337,15 @@ class Line {
                     : "the readings do not scatter, and no error is stated";
   }
 
+  /// The error of a contrast from the errors of the readings.
+  double error(const Eigen::VectorXd& contrast) const {
+    return std::sqrt(contrast.dot(inverse_ * contrast));
+  }
+
   std::array<double, 2> interval(const Eigen::VectorXd& contrast) const {
-    const double error = std::sqrt(contrast.dot(inverse_ * contrast));
-    double half = stated_ ? gsl_cdf_ugaussian_Qinv(tail) * error : 0.0;
+    double half = stated_ ? gsl_cdf_ugaussian_Qinv(tail) * error(contrast) : 0.0;
     if (dof_ > 0) {
-      half = std::max(half, gsl_cdf_tdist_Qinv(tail, dof_) * error * std::sqrt(variance_));
+      half = std::max(half, gsl_cdf_tdist_Qinv(tail, scatter_dof()) * scatter_error(contrast));
     }
     return {value(contrast) - half, value(contrast) + half};
   }
@@ -244,19 +357,95 @@ class Line {
         seen.dot((contrasts.transpose() * inverse_ * contrasts).ldlt().solve(seen));
     const auto count = static_cast<double>(contrasts.cols());
     double p = stated_ ? gsl_cdf_chisq_Q(square, count) : 0.0;
-    if (dof_ > 0 && variance_ > 0.0) {
+    if (contrasts.cols() == 1 && clustered()) {
+      const double of_scatter = scatter_error(contrasts.col(0));
+      if (of_scatter > 0.0) {
+        p = std::max(p, 2.0 * gsl_cdf_tdist_Q(std::abs(seen(0)) / of_scatter, scatter_dof()));
+      }
+    } else if (dof_ > 0 && variance_ > 0.0) {
       p = std::max(p, gsl_cdf_fdist_Q(square / count / variance_, count, dof_));
     }
     return p;
   }
 
  private:
+  bool clustered() const { return launches_ >= fewest_launches; }
+  double scatter_dof() const {
+    return clustered() ? static_cast<double>(launches_) - 1.0 : static_cast<double>(dof_);
+  }
+  /// The error of a contrast from the scatter, between launches if there are enough.
+  double scatter_error(const Eigen::VectorXd& contrast) const {
+    if (!clustered()) return error(contrast) * std::sqrt(variance_);
+    const Eigen::VectorXd side = inverse_ * contrast;
+    double sum = 0.0;
+    for (const Eigen::VectorXd& score : scores_) sum += std::pow(score.dot(side), 2);
+    const auto count = static_cast<double>(launches_);
+    return std::sqrt(sum * count / (count - 1.0));
+  }
+
+  /// Solves with the covariance of the readings: the stated one, and an independent `extra` error.
+  void solve(const std::vector<Reading>& readings, Eigen::MatrixXd X, Eigen::VectorXd y,
+             double extra) {
+    std::map<std::size_t, std::vector<Eigen::Index>> runs;
+    for (Eigen::Index i = 0; stated_ && i < y.size(); ++i) {
+      const Reading& r = readings[static_cast<std::size_t>(i)];
+      if (r.linked.launch != Observation::no_launch) {
+        runs[r.linked.launch].push_back(i);
+        continue;
+      }
+      const double weight = 1.0 / std::hypot(r.sd, extra);
+      X.row(i) *= weight;
+      y(i) *= weight;
+    }
+    for (const auto& [run, members] : runs) {
+      const auto count = static_cast<Eigen::Index>(members.size());
+      std::size_t last = 0;
+      for (const Eigen::Index i : members) {
+        last = std::max(last, readings[static_cast<std::size_t>(i)].linked.bounce);
+      }
+      Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(last) + 3);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const Reading& r = readings[static_cast<std::size_t>(members[static_cast<std::size_t>(k)])];
+        const std::array<double, 3> part = instant_coefficients(r.e);
+        for (std::size_t j = 0; j < part.size(); ++j) {
+          loads(k, static_cast<Eigen::Index>(r.linked.bounce + j)) = r.sd * part[j];
+        }
+      }
+      Eigen::MatrixXd covariance = loads * loads.transpose();
+      covariance.diagonal().array() += extra * extra;
+      const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+      const Eigen::MatrixXd rows = X(members, Eigen::all);
+      const Eigen::VectorXd values = y(members);
+      X(members, Eigen::all) = Eigen::MatrixXd(root.matrixL().solve(rows));
+      y(members) = Eigen::VectorXd(root.matrixL().solve(values));
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
+    solvable_ = dof_ >= 0 && qr.rank() == X.cols();
+    if (!solvable_) return;
+    coefficients_ = qr.solve(y);
+    inverse_ = (X.transpose() * X).inverse();
+    rest_ = y - X * coefficients_;
+    if (!clustered()) return;
+    std::map<std::size_t, Eigen::VectorXd> scores;
+    for (Eigen::Index i = 0; i < y.size(); ++i) {
+      scores
+          .try_emplace(readings[static_cast<std::size_t>(i)].launch,
+                       Eigen::VectorXd::Zero(X.cols()))
+          .first->second += rest_(i) * X.row(i).transpose();
+    }
+    scores_.clear();
+    for (const auto& [launch, score] : scores) scores_.push_back(score);
+  }
+
   bool stated_ = false, sloped_ = false, solvable_ = false, scatters_ = false;
+  std::size_t launches_ = 0;
   Eigen::Index columns_ = 0;
   int dof_ = 0;
   double variance_ = 0.0;
+  std::optional<LineScatter> stated_scatter_;
   Eigen::VectorXd coefficients_, rest_;
   Eigen::MatrixXd inverse_;
+  std::vector<Eigen::VectorXd> scores_;  ///< sums of X' rest over launches
 };
 
 /// The mean reading of every setting.
@@ -301,6 +490,89 @@ bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
   return p < lack_of_fit_level;
 }
 
+/// The mean of a setting or launch.
+struct BatchMean {
+  Reading reading;  ///< `e`, `velocity`: means; `sd`: the error of this mean
+  const Group* group = nullptr;
+  int points = 0;
+};
+
+/// The means of batches of at least two readings each, with their errors.
+std::vector<BatchMean> batch_means(const std::map<std::size_t, std::vector<Reading>>& batches,
+                                   const std::vector<Group>& groups) {
+  double within = 0.0, freedom = 0.0;
+  std::vector<BatchMean> means;
+  std::vector<double> shared;
+  for (const auto& [number, readings] : batches) {
+    if (readings.size() < 2) continue;
+    const auto n = static_cast<double>(readings.size());
+    Reading sum = readings.front();
+    sum.e = 0.0;
+    sum.velocity = mean_velocity(readings);
+    double of_setting = 0.0;
+    for (const Reading& r : readings) {
+      sum.e += r.e / n;
+      of_setting += r.e * r.point->setting_velocity_sd.value_or(0.0) / r.velocity / n;
+    }
+    for (const Reading& r : readings) within += (r.e - sum.e) * (r.e - sum.e);
+    freedom += n - 1.0;
+    sum.sd = std::sqrt(variance_of_sum(readings)) / n;
+    means.push_back({sum, &groups[sum.series], static_cast<int>(readings.size())});
+    shared.push_back(of_setting);
+  }
+  const double scatter = freedom > 0.0 ? std::sqrt(within / freedom) : 0.0;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    double& sd = means[k].reading.sd;
+    sd = std::hypot(std::max(sd, scatter / std::sqrt(means[k].points)), shared[k]);
+  }
+  return means;
+}
+
+/// The batch that differs most from the line through all others, if these lie on it.
+std::optional<OutlyingBatch> outlying(const std::vector<BatchMean>& means, std::size_t series,
+                                      bool launch) {
+  constexpr double level = 0.01;
+  constexpr std::size_t most = 200;  // every one costs a line through the others
+  std::optional<OutlyingBatch> found;
+  if (means.size() > most) return found;
+  std::vector<std::size_t> count(series, 0);
+  for (const BatchMean& mean : means) ++count[mean.reading.series];
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const Reading& own = means[k].reading;
+    if (count[own.series] < 2 || !(own.sd > 0.0)) continue;
+    std::vector<Reading> others;
+    std::map<std::size_t, std::size_t> number;  // of the series that the others have
+    for (std::size_t j = 0; j < means.size(); ++j) {
+      if (j == k) continue;
+      others.push_back(means[j].reading);
+      others.back().linked = {};
+      others.back().launch = none;
+      others.back().series = number.try_emplace(others.back().series, number.size()).first->second;
+    }
+    const Line line(others, number.size());
+    if (line.dof() < 1 || !line.has_errors()) continue;
+    if (gsl_cdf_chisq_Q(line.square(), line.dof()) < lack_of_fit_level) continue;
+    Eigen::VectorXd here = Eigen::VectorXd::Zero(line.columns());
+    here(static_cast<Eigen::Index>(number.at(own.series))) = 1.0;
+    if (line.sloped()) here(here.size() - 1) = std::log10(own.velocity);
+    const double expected = line.value(here);
+    const double error = std::hypot(own.sd, line.error(here));
+    const double p = std::min(1.0, 2.0 * gsl_cdf_ugaussian_Q(std::abs(own.e - expected) / error) *
+                                       static_cast<double>(means.size()));
+    if (p > level || (found && p >= found->p_value)) continue;
+    found = {means[k].group->dataset,
+             means[k].group->series,
+             launch,
+             launch ? own.point->launch : own.point->setting,
+             means[k].points,
+             own.velocity,
+             expected,
+             own.e - expected,
+             p};
+  }
+  return found;
+}
+
 }  // namespace
 
 bool RestitutionRange::peaks() const {
@@ -316,19 +588,20 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
   std::vector<Reading> readings;
   std::vector<std::size_t> place_in_means;  // [series] index into summary.means
   std::size_t place = 0;
-  const std::vector<Group> groups = groups_of(datasets);
   const std::optional<double> usual = usual_error(datasets);
+  const std::vector<Group> groups = groups_of(datasets, usual);
   for (const Group& group : groups) {
     place_in_means.push_back(summary.means.size());
     for (const auto& [key, points] : group.settings) {
-      for (const ImpactPoint* point : points) {
-        readings.push_back({point->restitution, point->restitution_sd.value_or(usual.value_or(0.0)),
-                            point->incident_velocity, place_in_means.size() - 1, place});
-        if (usual && !point->restitution_sd) ++summary.without_error;
+      for (const Reading& reading : points) {
+        readings.push_back(reading);
+        readings.back().series = place_in_means.size() - 1;
+        readings.back().place = place;
+        if (usual && !reading.point->restitution_sd) ++summary.without_error;
       }
       ++place;
     }
-    add_means(group, usual, summary.means);
+    add_means(group, summary.means);
   }
   summary.ranges = ranges_of(groups);
   summary.rebounds = readings.size();
@@ -348,9 +621,17 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
       std::minmax_element(readings.begin(), readings.end(),
                           [](const Reading& one, const Reading& other) { return one.e < other.e; });
   summary.values = {low->e, high->e};
-  const bool scattered = places_scatter(readings, Line(readings, series));
+  std::map<std::size_t, std::vector<Reading>> of_settings, of_launches;
+  for (const Reading& r : readings) {
+    of_settings[r.place].push_back(r);
+    if (r.launch != none) of_launches[r.launch].push_back(r);
+  }
+  summary.outlier = outlying(batch_means(of_settings, groups), series, false);
+  if (!summary.outlier) summary.outlier = outlying(batch_means(of_launches, groups), series, true);
+  const bool scattered = of_launches.empty() && places_scatter(readings, Line(readings, series));
   const std::vector<Reading> used = scattered ? means_of_places(readings) : readings;
   const Line line(used, series);
+  summary.scatter = scattered ? Line(readings, series).stated_scatter() : line.stated_scatter();
   const auto s = static_cast<Eigen::Index>(series);
   const auto assess = [&](const Eigen::VectorXd& contrast, const Eigen::MatrixXd& all,
                           TestedEffect& effect) {

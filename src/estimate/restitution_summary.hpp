@@ -23,7 +23,21 @@ struct RestitutionMean {
   double value = 0.0;              ///< [1]
   std::optional<std::array<double, 2>> interval;  ///< nullopt: see `why`
   int points = 0;
+  int launches = 0;  ///< of these points; 0: none is stated
   std::string why = {};
+};
+
+/// A setting (a drop height) or a launch whose points lie together apart from all others.
+struct OutlyingBatch {
+  std::size_t dataset = 0;
+  std::size_t series = 0;
+  bool launch = false;  ///< a launch; otherwise a setting
+  std::string name;     ///< of the launch or setting
+  int points = 0;
+  double velocity = 0.0;    ///< mean V [m/s]
+  double value = 0.0;       ///< e expected from the others [1]
+  double difference = 0.0;  ///< mean e minus `value` [1]
+  double p_value = 1.0;     ///< of the largest of all such differences
 };
 
 /// The rebounds of one size: mean e at the slowest setting, at the fastest, and where it is
@@ -50,16 +64,33 @@ struct TestedEffect {
   std::string why = {};  ///< the reason for a missing value
 };
 
+/// The scatter of points about the line of `RestitutionSummary::velocity`.
+struct LineScatter {
+  double ratio = 1.0;    ///< to the stated errors [1]
+  double p_value = 1.0;  ///< of no more scatter than stated (chi-square)
+};
+
 /// A summary of e without a model of the impact.
 ///
+/// - Diameters within a factor of 1.2 are one size.
 /// - A mean is unweighted. Its interval is the wider of two: Student's t with the scatter of the
 ///   points, and the normal one with their stated errors. A stated error s of V that a setting
-///   shares contributes e s / V once per setting.
+///   shares contributes e s / V once per setting. Successive bounces of a launch share instants,
+///   and their errors have that covariance. From five launches on, the scatter is that of the sums
+///   over launches (Cameron & Miller 2015, J. Hum. Resour. 50, 317-372), with one degree of freedom
+///   less than launches.
 /// - A point without a stated error counts with the median of the others.
 /// - `velocity` is b of e = a_series + b log10 V, by least squares weighted with the stated errors
 ///   [1/decade]; its p-value is the larger of those from stated errors and from the scatter. If the
 ///   means of the settings scatter more about the line than their points explain (F-test at 5 %),
-///   each mean counts as one reading. A series with several sizes has an a for each.
+///   each mean counts as one reading. A series with several sizes has an a for each. Points that
+///   share instants are weighted with their covariance; where they scatter more than stated, an
+///   independent error is added to all. From five launches on, the scatter of `velocity` is that
+///   between launches, as for a mean.
+/// - `outlier` is the setting, or else the launch, that differs most from the line through the
+/// means
+///   of all others, if these agree (5 %) and it differs (1 %, times the number of means). The error
+///   of a mean is the larger of the stated one and that from the scatter within all of them.
 /// - `bend` is the p-value of b = c = 0 in e = a_series + b log10 V + c (log10 V)^2, by the same
 ///   tests: near capture e rises and then falls, which a slope cannot show.
 /// - `series` is the largest difference between two series of one size at equal velocity, and the
@@ -77,6 +108,8 @@ struct RestitutionSummary {
   std::size_t rebounds = 0;                            ///< points with a rebound
   std::size_t without_error = 0;  ///< those of them that state no error, if others state one
   bool several_series = false;
+  std::optional<OutlyingBatch> outlier;
+  std::optional<LineScatter> scatter;  ///< nullopt: points state no errors, or too few points
 };
 
 /// @param adhesion does the model have adhesion?

@@ -137,6 +137,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
     case ImportFormat::heights:
       return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
+    case ImportFormat::recording:
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
       return read_track(request, sphere_in_air(system));
@@ -210,6 +211,50 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
     const double sd = std::hypot(error.value_or(0.0), scatter.of(*e));
     if (sd > 0.0) error = sd;
   }
+}
+
+/// Refuses points of which more than half return faster than they came, and leaves out single
+/// impossible impacts of flights.
+void require_possible(const ImportRequest& request, ImportedPoints& imported) {
+  constexpr double most = limits::restitution.upper;
+  std::vector<const ImportedPoint*> above;
+  std::size_t impossible = 0;
+  for (const ImportedPoint& point : imported.points) {
+    const double e = point.restitution().value_or(0.0);
+    if (e > 1.0) above.push_back(&point);
+    if (e > most) ++impossible;
+  }
+  const bool flights = request.format == ImportFormat::heights ||
+                       request.format == ImportFormat::intervals ||
+                       request.format == ImportFormat::track;
+  if (!flights && impossible > 0) return;  // refused with its unit later
+  if (above.size() > 1 && 2 * above.size() > imported.points.size()) {
+    std::string how = "check the columns in --map, their units and the axes";
+    if (request.format == ImportFormat::heights) {
+      how = "exchange drop_height and rebound_height in --map, or check their units";
+    } else if (request.format == ImportFormat::intervals) {
+      how =
+          "state with --map launch=COLUMN which rows belong together; --transpose reads launches "
+          "that are in columns";
+    } else if (request.format == ImportFormat::track) {
+      how =
+          "check the times (a film that shows pictures twice has too many) and leave out what was "
+          "held";
+    }
+    throw InputError({request.file.string(), above.front()->line, 1},
+                     fmt::format("restitution is above 1 in {} of {} points", above.size(),
+                                 imported.points.size()),
+                     "a ball returns no faster than it came, apart from errors", how);
+  }
+  if (impossible == 0) return;
+  ImportNote note{ImportRemark::impossible_left_out};
+  std::erase_if(imported.points, [&](const ImportedPoint& point) {
+    const double e = point.restitution().value_or(0.0);
+    if (e <= most) return false;
+    note.names.push_back(fmt::format("line {} (e = {:.3g})", point.line, e));
+    return true;
+  });
+  imported.notes.push_back(note);
 }
 
 /// Throws `error`, which is about the dataset to be written, with the line of the imported file
@@ -300,7 +345,52 @@ bool adhesion_is_negligible(const ImportRequest& request, const Json& system,
   });
 }
 
+/// The point of the summary. @param series index
+ImpactPoint summarised(const ImportedPoint& imported, std::size_t series) {
+  ImpactPoint point;
+  point.series = series;
+  point.diameter = imported.value[Quantity::diameter].value_or(0.0);
+  point.incident_velocity = imported.value[Quantity::incident_velocity].value_or(0.0);
+  point.restitution = imported.restitution().value_or(0.0);
+  point.restitution_sd = imported.value[Quantity::restitution_sd];
+  point.velocity_sd = imported.value[Quantity::velocity_sd];
+  point.setting_velocity_sd = imported.value[Quantity::setting_velocity_sd];
+  point.events = static_cast<int>(imported.value[Quantity::events].value_or(1.0));
+  point.captured = static_cast<int>(imported.value[Quantity::captured].value_or(0.0));
+  point.setting = imported.setting;
+  point.launch = imported.launch;
+  point.line = imported.line;
+  return point;
+}
+
 }  // namespace
+
+ImportResult read_bounces(const ImportRequest& asked, double density) {
+  ImportRequest request = asked;
+  request.particle = fmt::format("material=ball,density={:.17g}", density);
+  request.surface = "material=floor";
+  ImportResult result;
+  const std::vector<ImportPart> parts = import_parts(request, result.notes);
+  std::vector<ImportNote> of_package;  // there is no package
+  const Json system = imported_system(request, std::nullopt, of_package);
+  ImportedPoints imported = read_parts(parts, system, {});
+  resolve_diameters(request, imported);
+  require_possible(request, imported);
+  result.notes.insert(result.notes.end(), imported.notes.begin(), imported.notes.end());
+  Dataset& dataset = result.dataset;
+  dataset.id = default_series(request);
+  dataset.system.method = value_named<Method>(system["method"].get<std::string>()).value();
+  for (const ImportedPoint& point : imported.points) {
+    auto series = std::ranges::find(dataset.series, point.series);
+    if (series == dataset.series.end()) {
+      dataset.series.push_back(point.series);
+      series = std::prev(dataset.series.end());
+    }
+    const auto index = static_cast<std::size_t>(series - dataset.series.begin());
+    dataset.points.push_back(summarised(point, index));
+  }
+  return result;
+}
 
 ImportResult import_points(const ImportRequest& request) {
   refuse_existing(request);
@@ -314,8 +404,14 @@ ImportResult import_points(const ImportRequest& request) {
   ImportResult result;
   Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported = read_parts(parts, system, units);
+  if (imported.points.empty() && request.format == ImportFormat::track) {
+    throw InputError({request.file.string()}, "no impact was found in these tracks",
+                     "it needs a minimum with 4 samples of free flight on either side",
+                     "check the columns in --map, or film with more frames per second");
+  }
   resolve_diameters(request, imported);
   add_scatter(request, imported.points);
+  require_possible(request, imported);
 
   notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());
   result.notes.insert(result.notes.begin(), notes.begin(), notes.end());

@@ -19,6 +19,7 @@ enum class ImportFormat {
   intervals,         ///< times of successive bounces, or between them
   csv,               ///< any table, with a map of its columns
   track,             ///< heights over time
+  recording,         ///< the sound of a ball that bounces
   rest,              ///< drop heights and times to rest
   tops,              ///< heights of successive tops
   blocks,            ///< times of several bounces together
@@ -26,8 +27,8 @@ enum class ImportFormat {
 
 /// The names of the formats on the command line.
 constexpr auto names_of_values(ImportFormat) {
-  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track", "rest", "tops",
-                   "blocks");
+  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track", "recording", "rest",
+                   "tops", "blocks");
 }
 
 /// The file to import and the information that it lacks, as on the command line. Quantities are
@@ -46,6 +47,7 @@ struct ImportRequest {
 
   std::vector<std::string> map;  ///< "quantity=column:unit"
   bool decimal_comma = false;    ///< numbers are written 2,5
+  bool transpose = false;        ///< exchange the rows and columns of the file
   std::string sd_of;  ///< restitution_sd is of "one" impact, of the "mean", or "": unknown
   std::vector<std::string> diameters;  ///< "4.9um" for all, "SERIES=4.9um" for one
   std::string diameter_error;
@@ -98,18 +100,22 @@ enum class ImportRemark {
   same_point,              ///< heights: both have to refer to the same point of the ball
   air_drag,                ///< `air`: the effect of air drag on e
   turbulent_air,           ///< `air`: faster than the range of the drag law
+  impossible_left_out,     ///< `names`: single impacts with an e above the limit
   bounces_missing,         ///< `count` pairs of intervals left out
   release_heights,         ///< `releases`: a check of them
   first_bounces_missed,    ///< `names`: launches whose first bounces are not in the file
   bounces_suspected,       ///< `names`: places where a bounce may be missing
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
+  shared_values,           ///< the same, and no fit can know it
   mean_of_bounces,         ///< e is assumed to be the same at all bounces of a point
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
   axis_points_down,        ///< tracks: heights are measured downward
   track_fall,              ///< tracks: `fall` differs from `gravity`
   frames_repeated,         ///< tracks: `count` frames show the one before again
   frames_mended,           ///< tracks: `count` rows are not one frame after the row before
+  impacts_heard,           ///< recording: `count` impacts, with the error `time_sd` of an instant
+  tracks_without_impact,   ///< `names`: launches or files
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
@@ -143,6 +149,7 @@ struct ImportNote {
   AirShare air = {};
   double fall = 0.0;     ///< measured acceleration [m/s2]
   double gravity = 0.0;  ///< [m/s2]
+  double time_sd = 0.0;  ///< [s]
 };
 
 struct ImportResult {
@@ -161,5 +168,11 @@ struct ImportResult {
 /// @throws InputError for a mistake in the file, and for missing information, with the option that
 ///   states it
 ImportResult import_points(const ImportRequest& request);
+
+/// Reads the impacts of balls that bounce, and writes nothing. The materials are not known, and the
+/// dataset has no other use than the summary of its points.
+/// @param density of the balls, for the drag of air [kg/m3]
+/// @throws InputError for a mistake in the file
+ImportResult read_bounces(const ImportRequest& request, double density);
 
 }  // namespace recoil

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/quoting.hpp"
 #include "core/statistics.hpp"
 #include "experiment/import_formats.hpp"
 
@@ -113,6 +114,7 @@ struct Bounce {
 
 /// The flights of one ball after its release.
 struct Launch {
+  std::string series;
   std::string name;
   std::optional<double> release;  ///< height [m]
   std::optional<double> diameter;
@@ -139,18 +141,53 @@ std::string time_column(const ImportTable& table) {
   return table.has("interval") ? "interval" : "time";
 }
 
+/// Refuses launches in columns: every column falls, and rows of successive flights do not.
+void refuse_columns(const ImportTable& table, const std::string& column) {
+  if (table.has("launch") || !table.has_replicates()) return;
+  std::map<int, std::vector<std::optional<double>>> rows;  // by line
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    rows[table.line(r)].push_back(table.value(r, column));
+  }
+  std::size_t across = 0, rises_across = 0, down = 0, rises_down = 0;
+  const std::vector<std::optional<double>>* above = nullptr;
+  for (const auto& [line, row] : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (k > 0 && row[k] && row[k - 1]) {
+        ++across;
+        rises_across += *row[k] >= *row[k - 1] ? 1 : 0;
+      }
+      if (above && k < above->size() && row[k] && (*above)[k]) {
+        ++down;
+        rises_down += *row[k] >= *(*above)[k] ? 1 : 0;
+      }
+    }
+    above = &row;
+  }
+  // Flights of a launch fall at every step; the first flights of launches are in any order.
+  if (4 * rises_across < across || 10 * rises_down > down || down < 2) return;
+  table.fail(
+      0, column,
+      fmt::format("{} of {} steps along the rows rise, {} of {} down the columns", rises_across,
+                  across, rises_down, down),
+      "successive flights fall: the launches seem to be in columns",
+      fmt::format("add --transpose and write --map {}", shell_word(table.exchanged_map(column))));
+}
+
 std::vector<Launch> read_launches(const ImportTable& table) {
   const std::string column = time_column(table);
   std::vector<Launch> launches;
-  std::map<std::string, std::size_t> index;
+  std::map<std::pair<std::string, std::string>, std::size_t> index;
   for (std::size_t r = 0; r < table.size(); ++r) {
-    std::string name = table.name(r, "launch");
-    if (!table.has("launch") && table.has_replicates()) {
-      name = fmt::format("{} line {}", name, table.line(r));
+    const std::string series = table.name(r, "series");
+    std::string name = table.text(r, "launch");
+    if (name.empty()) {
+      const bool of_rows = !table.has("launch") && table.has_replicates();
+      name = of_rows ? fmt::format("line {}", table.line(r)) : series;
     }
-    const auto [known, added] = index.try_emplace(name, launches.size());
+    const auto [known, added] = index.try_emplace({series, name}, launches.size());
     if (added) {
-      launches.push_back({name, table.value(r, "release_height"), table.value(r, "diameter")});
+      launches.push_back(
+          {series, name, table.value(r, "release_height"), table.value(r, "diameter")});
     }
     Launch& launch = launches[known->second];
     const std::optional<double> number = table.value(r, "bounce");
@@ -209,7 +246,7 @@ std::optional<FirstBounce> first_bounce(const Launch& launch, const Flights& fli
   ReleaseCheck& check = bounce.check;
   check = {height, 0.5 * g * t0 / bounce.velocity, t1 / t0, 0.0};
   check.missing = (check.first * check.first / (check.second * check.second) - 1.0) * height;
-  if (const auto air = flights.in_air(launch.name, launch.diameter)) {
+  if (const auto air = flights.in_air(launch.series, launch.diameter)) {
     const double up = air->launch_for_duration(t0);
     bounce.velocity = air->fall(height).speed;
     check.first = up / bounce.velocity;
@@ -246,8 +283,9 @@ std::vector<ReleaseCheck> mean_checks(
 ImportedPoint point_after_release(const Launch& launch, const FirstBounce& bounce,
                                   const ImportTable& table, const StatedError& time,
                                   const StatedError& drop) {
-  ImportedPoint point = imported_point(launch.name, table.line(launch.flights.front().row),
+  ImportedPoint point = imported_point(launch.series, table.line(launch.flights.front().row),
                                        launch.diameter, bounce.velocity, bounce.check.first);
+  point.launch = launch.name;
   const double of_height = 0.5 * drop.of(bounce.check.height) / bounce.check.height;
   const double duration = launch.flights.front().duration;
   const double of_time = std::sqrt(2.0) * time.of(duration) / duration;
@@ -288,7 +326,8 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   const std::string column = time_column(table);
   const double g = flights.gravity();
   const double e_vacuum = back.duration / in.duration;
-  if (e_vacuum > limits::restitution.upper) {
+  const bool launches_known = table.has("launch") || table.has_replicates();
+  if (e_vacuum > limits::restitution.upper && !launches_known) {
     table.fail(back.row, column,
                fmt::format("restitution = {:.3g}: a flight of {:g} s after one of {:g} s", e_vacuum,
                            back.duration, in.duration),
@@ -301,13 +340,14 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   const double v_vacuum = 0.5 * g * in.duration;
   double e = e_vacuum;
   double v = v_vacuum;
-  if (const auto air = flights.in_air(launch.name, launch.diameter)) {
+  if (const auto air = flights.in_air(launch.series, launch.diameter)) {
     v = air->return_speed(air->launch_for_duration(in.duration));
     e = air->launch_for_duration(back.duration) / v;
-    flights.note_drag(table, back.row, column, *air, v, e, e_vacuum);
+    if (e_vacuum <= limits::restitution.upper)
+      flights.note_drag(table, back.row, column, *air, v, e, e_vacuum);
   }
-  ImportedPoint point = imported_point(launch.name, table.line(back.row), launch.diameter, v, e);
-  if (column == "time") point.launch = launch.name;
+  ImportedPoint point = imported_point(launch.series, table.line(back.row), launch.diameter, v, e);
+  point.launch = launch.name;
   if (time.stated()) {
     const double tau = time.of(in.duration);
     const double sd_vacuum =
@@ -419,7 +459,8 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
 }
 
 ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere) {
-  const ImportTable table(request, {{"launch", Dimension::text},
+  const ImportTable table(request, {{"series", Dimension::text},
+                                    {"launch", Dimension::text},
                                     {"bounce", Dimension::count},
                                     {"interval", Dimension::time},
                                     {"time", Dimension::time},
@@ -431,6 +472,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   const StatedError time = stated_error(request.time_error, Dimension::time, "s", "--time-error");
   const StatedError drop = stated_error(request.drop_error, Dimension::length, "m", "--drop-error");
   Flights flights(request, sphere);
+  if (table.has("interval")) refuse_columns(table, "interval");
   const std::vector<Launch> launches = read_launches(table);
   ImportedPoints out;
   out.notes = table.notes();
@@ -479,7 +521,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   }
   if (unused) out.notes.push_back({ImportRemark::first_bounces_not_used});
   flights.add_notes(out.notes);
-  if (table.has("interval")) out.notes.push_back({ImportRemark::shared_bounces});
+  if (!time.stated()) out.notes.push_back({ImportRemark::shared_bounces});
   return out;
 }
 

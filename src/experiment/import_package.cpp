@@ -93,6 +93,7 @@ Provenance provenance_for(const ImportRequest& request,
     case ImportFormat::rest:
     case ImportFormat::tops:
     case ImportFormat::blocks:
+    case ImportFormat::recording:
       return Provenance::measured;
     case ImportFormat::csv:
       break;
@@ -160,6 +161,7 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           "g h1) with g = {} m/s2, {}.",
           source_name(request), request.gravity, air_words(air));
     case ImportFormat::intervals:
+    case ImportFormat::recording:
       return fmt::format(
           "Times between bounces, imported from {}: e is the ratio of successive "
           "intervals, V = g t / 2 with g = {} m/s2, {}.",
@@ -340,7 +342,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
     stated["method"] = name_of(Method::drop_heights);
   }
   if (request.format == ImportFormat::intervals || request.format == ImportFormat::rest ||
-      request.format == ImportFormat::blocks) {
+      request.format == ImportFormat::blocks || request.format == ImportFormat::recording) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
   if (request.format == ImportFormat::track) stated["method"] = name_of(Method::video);

@@ -13,6 +13,7 @@
 #include "core/files.hpp"
 #include "data/text.hpp"
 #include "experiment/column_names.hpp"
+#include "experiment/recording.hpp"
 #include "experiment/workbook.hpp"
 
 namespace recoil {
@@ -354,6 +355,9 @@ std::string table_text(const ImportRequest& request, std::vector<ImportNote>& no
     notes.push_back(note);
     return std::move(sheet.table);
   }
+  if (is_recording(bytes)) {
+    throw InputError({file}, "this is a recording, not a table", "", "write --format recording");
+  }
   if (!request.sheet.empty()) {
     throw InputError({file}, "--sheet, but this is not a workbook",
                      "recoil reads .xlsx, .ods and .xls", "leave the option out");
@@ -382,7 +386,14 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
   if (rows.empty()) {
     throw InputError({file, 1, 1}, "the file is empty", "", "export the points again");
   }
-  return rows;
+  if (!request.transpose) return rows;
+  std::vector<CsvRow> columns;
+  for (const CsvRow& row : rows) {
+    require_width(row, rows.front().size(), file);
+    columns.resize(row.size());
+    for (std::size_t i = 0; i < row.size(); ++i) columns[i].push_back(row[i]);
+  }
+  return columns;
 }
 
 ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQuantity>& known,
@@ -725,6 +736,30 @@ void ImportTable::fail(std::size_t row, const std::string& quantity, const std::
   const CsvField* const cell = cell_of(row, quantity);
   throw InputError((cell != nullptr ? *cell : cells(row).front()).in(file_), problem, why,
                    suggestion);
+}
+
+std::string ImportTable::exchanged_map(const std::string& quantity) const {
+  const Source& source = columns_.at(quantity);
+  const bool labelled = std::ranges::count(source.at, std::size_t{0}) == 0;
+  // Labels in the first column become a header, unless they are numbers.
+  const bool named = labelled && !std::ranges::all_of(rows_, [&](const CsvRow& row) {
+                       return row.front().text.empty() || parse_number(row.front().text, format_);
+                     });
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    // Without a header the first column is that of the names above the columns.
+    std::string name = named ? rows_[r].front().text : std::to_string(r + (named_ ? 2 : 1));
+    if (name.find_first_of(",+=:") != std::string::npos) name = '"' + name + '"';
+    names.push_back(name);
+  }
+  const auto known = std::ranges::find(known_, quantity, &ImportQuantity::name);
+  std::string unit = si_unit(known->dimension);
+  if (const double factor = source.scale.front().factor; factor != 1.0) {
+    unit = fmt::format("{:.9g}{}", factor, unit);
+  }
+  const std::string launch = named ? header_.front().text : named_ ? "1" : "";
+  return fmt::format("{}{}={}:{}", launch.empty() ? "" : "launch=" + launch + ",", quantity,
+                     fmt::join(names, "+"), unit);
 }
 
 std::vector<std::string> ImportTable::unused() const {

@@ -149,6 +149,10 @@ class ImportTable {
   [[noreturn]] void fail(std::size_t row, const std::string& quantity, const std::string& problem,
                          const std::string& why, const std::string& suggestion) const;
 
+  /// The entries of --map that read the columns of `quantity` as a launch each, for the same table
+  /// with rows and columns exchanged: "launch=Data,interval=Bounce 1+Bounce 2:s".
+  std::string exchanged_map(const std::string& quantity) const;
+
   /// The names of columns that no quantity uses.
   std::vector<std::string> unused() const;
 

@@ -96,7 +96,8 @@ struct RestitutionMeanEntry { RECOIL_RESULT(
     (double, value, "mean e", "1"),
     (OrReason<Ends>, interval, "95 % interval, from the scatter or from the stated errors, "
      "whichever is wider", "1"),
-    (int, points, "number of points", "", at_least_one)) };
+    (int, points, "number of points", "", at_least_one),
+    (int, launches, "number of launches of these points; 0: none is stated")) };
 
 /// The slope b of e = a_series + b log10 V.
 struct VelocityDependenceEntry { RECOIL_RESULT(

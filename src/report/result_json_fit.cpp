@@ -704,6 +704,7 @@ RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets,
     entry.value = mean.value;
     entry.interval = {mean.interval, mean.why};
     entry.points = mean.points;
+    entry.launches = mean.launches;
   }
   for (const RestitutionRange& range : summary.ranges) {
     out.ranges.push_back({datasets[range.dataset].id,

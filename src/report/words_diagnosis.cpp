@@ -152,9 +152,9 @@ std::string cause_headline(const Diagnosis& d) {
     case Verdict::not_separable:
       return cause_of(std::get<NotSeparable>(d.answer), lead);
     case Verdict::unexplained:
-      if (const auto* shape = d.answer_if<Resembles>()) {
-        return fmt::format("The residuals have the shape of {}, which cannot be the cause",
-                           cause_words(shape->causes, " or "));
+      if (repeats_scatter(d)) return "The points scatter more than their stated errors";
+      if (d.answer_if<Resembles>() != nullptr) {
+        return "No cause in the catalogue explains the residuals";
       }
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "core/units.hpp"
 #include "data/text.hpp"
 #include "estimate/friction.hpp"
 #include "estimate/restitution_summary.hpp"
@@ -13,8 +15,10 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_listed = 4;  // series or sizes in a sentence
-constexpr double shown_level = 0.05;    // a smaller p-value is reported as a difference
+constexpr std::size_t most_listed = 4;   // sizes in a sentence
+constexpr std::size_t most_ranked = 10;  // series in a sentence
+constexpr double scatter_level = 0.01;
+constexpr double shown_level = 0.05;  // a smaller p-value is reported as a difference
 
 /// The name of a series, with its size if there are several sizes, and with its dataset if there
 /// are several.
@@ -112,23 +116,55 @@ Sentence ranges_words(std::vector<RestitutionRange> ranges, const std::vector<Da
                                  : std::string());
 }
 
+/// "(24 points, 12 launches)"
+std::string count_words(const RestitutionMean& mean) {
+  const std::string points = counted(mean.points, "point");
+  return mean.launches > 1 ? fmt::format(" ({}, {} launches)", points, mean.launches)
+                           : fmt::format(" ({})", points);
+}
+
+/// The setting or launch that lies apart, and for a drop height the height that would mend it:
+/// e = V_rebound / V with V proportional to the root of the height.
+Sentence outlier_words(const OutlyingBatch& batch, const std::vector<Dataset>& datasets) {
+  const Dataset& dataset = datasets[batch.dataset];
+  const std::string points = counted(batch.points, "point");
+  const std::string where = datasets.size() > 1 ? " of " + dataset.id : "";
+  const Sentence apart = say("lie together {:.2g} {} the others ({})", std::abs(batch.difference),
+                             batch.difference > 0.0 ? "above" : "below", p_words(batch.p_value));
+  if (batch.launch) {
+    return say("The {} of launch {}{} {}: look there.", points, batch.name, where, apart);
+  }
+  if (dataset.system.method != Method::drop_heights) {
+    return say("The {} at {} m/s{} {}: look there.", points, number(batch.velocity, 3), where,
+               apart);
+  }
+  const double height = 0.5 * batch.velocity * batch.velocity / standard_gravity;
+  const double error = std::pow((batch.value + batch.difference) / batch.value, 2) - 1.0;
+  return say("The {} from {} cm{} {}: that height is wrong by about {} cm, or look there.", points,
+             number(height / units::cm, 3), where, apart,
+             number(std::abs(error) * height / units::cm, 1));
+}
+
 }  // namespace
 
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
                                             const ImpactModel& model) {
-  const bool adhesion = adheres_anywhere(model);
+  return restitution_sentences(datasets, adheres_anywhere(model));
+}
+
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion) {
   const RestitutionSummary summary = summarise_restitution(datasets, adhesion);
   if (adhesion && !summary.ranges.empty()) return {ranges_words(summary.ranges, datasets)};
-  std::vector<Sentence> means;
-  double least = INFINITY, most = 0.0;
+  std::vector<RestitutionMean> ranked;
   for (const RestitutionMean& mean : summary.means) {
-    if (mean.velocity) continue;
-    least = std::min(least, mean.value);
-    most = std::max(most, mean.value);
-    const std::string count = fmt::format(" ({})", counted(mean.points, "point"));
+    if (!mean.velocity) ranked.push_back(mean);
+  }
+  std::ranges::stable_sort(ranked, std::greater(), &RestitutionMean::value);
+  std::vector<Sentence> means;
+  for (const RestitutionMean& mean : ranked) {
     means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
-                                                 mean_words(mean), count)
-                                           : mean_words(mean) + count);
+                                                 mean_words(mean), count_words(mean))
+                                           : mean_words(mean) + count_words(mean));
   }
   if (means.empty()) return {};
   std::vector<Sentence> sentences;
@@ -136,11 +172,18 @@ std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets
                        summary.bend.value_or(1.0) < shown_level;
   if (!depends || !spans_a_decade(summary)) {
     sentences.push_back(
-        means.size() > most_listed
-            ? say("Mean {e} of {} series or sizes: {:.3f} to {:.3f}.", means.size(), least, most)
+        means.size() > most_ranked
+            ? say("Mean {e} of {} series or sizes: {:.3f} ({}) to {:.3f} ({}).", means.size(),
+                  ranked.back().value, series_words(ranked.back(), summary, datasets),
+                  ranked.front().value, series_words(ranked.front(), summary, datasets))
             : say("Mean {e}: {}.", join(means, "; ")));
   }
+  if (summary.outlier) sentences.push_back(outlier_words(*summary.outlier, datasets));
   sentences.push_back(dependence_words(summary));
+  if (summary.scatter && summary.scatter->p_value < scatter_level) {
+    sentences.push_back(say("The points scatter {:.2g} times as much as they state ({}).",
+                            summary.scatter->ratio, p_words(summary.scatter->p_value)));
+  }
   if (summary.without_error > 0) {
     sentences.push_back(say("{} of {} points {} no error and {} with the median of the others.",
                             summary.without_error, summary.rebounds,
@@ -155,7 +198,7 @@ std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets
     };
     if (*differ.p_value >= shown_level) {
       sentences.push_back(say("No difference between the series is detected ({}).", p));
-    } else if (means.size() > most_listed) {
+    } else if (means.size() > most_ranked) {
       sentences.push_back(say("The series differ in {e} ({}), by up to {:.2g}.", p, *differ.value));
     } else {
       sentences.push_back(say("The series differ in {e} ({}): {} and {} by {:.2g} {}.", p, name(0),

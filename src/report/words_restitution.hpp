@@ -15,6 +15,8 @@ namespace recoil {
 /// @param model that is fitted to these points
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
                                             const ImpactModel& model);
+/// @param adhesion does the contact have adhesion?
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion);
 
 /// The coefficient of friction of every dataset with tangential restitutions; empty without any.
 std::vector<Sentence> friction_sentences(const std::vector<Dataset>& datasets);

@@ -126,6 +126,147 @@ TEST(RestitutionSummary, HeightsThatScatterMoreThanTheirDropsCountAsOneReadingEa
   EXPECT_EQ(found.means[3].points, 3);
 }
 
+// One number at a time: 0.80 three times in each of the launches 0.78, ..., 0.82. The mean of a
+// launch is one reading: 0.80 -+ t(4) s / sqrt(5) with s = sqrt(0.00025), not t(14) of 15 points.
+TEST(RestitutionSummary, TheScatterOfAMeanIsThatBetweenLaunches) {
+  std::vector<Row> rows;
+  for (int launch = 0; launch < 5; ++launch) {
+    for (int k = 0; k < 3; ++k) rows.push_back({0, 1.0 + k, 0.78 + 0.01 * launch});
+  }
+  Dataset data = dataset_of(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) data.points[i].launch = std::to_string(i / 3);
+  const RestitutionSummary found = summarise_restitution({data});
+  ASSERT_FALSE(found.means.empty());
+  EXPECT_EQ(found.means.front().points, 15);
+  EXPECT_EQ(found.means.front().launches, 5);
+  expect_interval(found.means.front().interval, 0.80 - 2.7764451051977987 * 0.0070710678118654752,
+                  0.80 + 2.7764451051977987 * 0.0070710678118654752);
+}
+
+TEST(RestitutionSummary, DiametersOfOneSizeMakeOneSeries) {
+  Dataset data = dataset_of({{0, 1.0, 0.8}, {0, 2.0, 0.79}, {0, 3.0, 0.81}, {0, 4.0, 0.8}});
+  for (std::size_t i = 0; i < 4; ++i)
+    data.points[i].diameter *= 1.0 + 0.02 * static_cast<double>(i);
+  const RestitutionSummary found = summarise_restitution({data});
+  ASSERT_EQ(found.means.size(), 1U);
+  EXPECT_EQ(found.means.front().points, 4);
+  EXPECT_NEAR(found.means.front().diameter, 0.03 * 1.03, 1e-12);
+  EXPECT_TRUE(found.velocity.p_value.has_value());
+}
+
+/// Launches of a ball with e = a + b log10 V at every bounce, whose instants have errors, and an
+/// independent scatter of e.
+Dataset timed_launches(std::size_t launches, double a, double b, double of_instants, double scatter,
+                       std::mt19937& random) {
+  constexpr double g = 9.80665;
+  constexpr int bounces = 7;
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> start(3.0, 4.0);
+  Dataset data = dataset_of({});
+  data.series = {"a"};
+  for (std::size_t launch = 0; launch < launches; ++launch) {
+    std::vector<double> instants = {of_instants * normal(random)};
+    double velocity = start(random);
+    double exact = 0.0;
+    for (int k = 0; k < bounces; ++k) {
+      exact += 2.0 * velocity / g;
+      instants.push_back(exact + of_instants * normal(random));
+      velocity *= a + b * std::log10(velocity) + scatter * normal(random);
+    }
+    for (std::size_t k = 0; k + 2 < instants.size(); ++k) {
+      const double first = instants[k + 1] - instants[k];
+      const double second = instants[k + 2] - instants[k + 1];
+      ImpactPoint point;
+      point.diameter = 0.03;
+      point.launch = std::to_string(launch);
+      point.incident_velocity = 0.5 * g * first;
+      const double e = second / first;
+      point.restitution = e;
+      point.restitution_sd = of_instants / first * std::sqrt(1.0 + (1.0 + e) * (1.0 + e) + e * e);
+      data.points.push_back(point);
+    }
+  }
+  return data;
+}
+
+/// 25 launches in each of 200 sets: 190 intervals of 200 hold the truth, with a standard deviation
+/// of 3.1. Independent errors would give slopes with intervals several times too wide.
+TEST(RestitutionSummary, IntervalsOfTimedLaunchesHoldTheTruth) {
+  std::mt19937 random(12);
+  constexpr int sets = 200;
+  struct Case {
+    double scatter;
+    double widest;  ///< of the slope's interval, as a multiple of its actual standard deviation
+  };
+  for (const auto& [scatter, widest] : {Case{0.0, 2.4}, Case{0.01, 2.6}}) {
+    int slopes = 0, means = 0;
+    double width = 0.0, sum = 0.0, square = 0.0;
+    for (int k = 0; k < sets; ++k) {
+      const RestitutionSummary found =
+          summarise_restitution({timed_launches(25, 0.85, -0.03, 1e-3, scatter, random)});
+      ASSERT_TRUE(found.velocity.interval);
+      const auto& [low, high] = *found.velocity.interval;
+      slopes += low < -0.03 && -0.03 < high ? 1 : 0;
+      width += 0.5 * (high - low) / sets;
+      sum += *found.velocity.value / sets;
+      square += *found.velocity.value * *found.velocity.value / sets;
+      // The mean of e over the bounces of many launches, to 1e-4.
+      static const double mean = [] {
+        std::mt19937 other(1);
+        return summarise_restitution({timed_launches(4000, 0.85, -0.03, 1e-9, 0.0, other)})
+            .means.front()
+            .value;
+      }();
+      const auto& of_mean = *found.means.front().interval;
+      means += of_mean[0] < mean && mean < of_mean[1] ? 1 : 0;
+    }
+    EXPECT_GE(slopes, 181) << scatter;
+    EXPECT_LT(width, widest * std::sqrt(square - sum * sum)) << scatter;
+    EXPECT_GE(means, 181) << scatter;
+  }
+}
+
+TEST(RestitutionSummary, OneWrongHeightOrLaunchIsNamed) {
+  for (const bool launch : {false, true}) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    int named = 0, wrong = 0, accused = 0;
+    for (int set = 0; set < 100; ++set) {
+      const bool right = set % 2 == 0;  // every second set hides nothing
+      Dataset data = dataset_of({});
+      data.series = {"a"};
+      for (const double height : {0.25, 0.35, 0.45, 0.55, 0.65}) {
+        const double fallen = height + (height == 0.45 && !right ? 0.03 : 0.0);
+        for (int k = 0; k < 10; ++k) {
+          const double rebound = 0.88 * 0.88 * fallen + 0.005 * normal(random);
+          ImpactPoint point;
+          point.diameter = 0.04;
+          point.incident_velocity = std::sqrt(2.0 * 9.80665 * height);
+          point.restitution = std::sqrt(rebound / height);
+          point.restitution_sd = 0.5 * point.restitution * 0.005 / rebound;
+          (launch ? point.launch : point.setting) = std::to_string(height);
+          data.points.push_back(point);
+        }
+      }
+      const std::optional<OutlyingBatch> found = summarise_restitution({data}).outlier;
+      if (right) {
+        accused += found ? 1 : 0;
+        continue;
+      }
+      if (!found) continue;
+      const bool it = found->name == std::to_string(0.45) && found->launch == launch;
+      ++(it ? named : wrong);
+      // 0.88 (sqrt(0.48 / 0.45) - 1) = 0.02886
+      if (it) {
+        EXPECT_NEAR(found->difference, 0.02886, 0.01);
+      }
+    }
+    EXPECT_GE(named, 45);
+    EXPECT_EQ(wrong, 0);
+    EXPECT_LE(accused, 3);
+  }
+}
+
 TEST(RestitutionSummary, SaysWhatCannotBeSeen) {
   const RestitutionSummary one =
       summarise_restitution({dataset_of({{0, 3.0, 0.8}, {0, 3.0, 0.8}, {0, 3.0, 0.8}})});

@@ -127,7 +127,9 @@ TEST(Intervals, OneRestitutionPerBounce) {
   EXPECT_DOUBLE_EQ(points[0].restitution, 0.8);
   EXPECT_DOUBLE_EQ(points[1].restitution, 0.75);
   EXPECT_DOUBLE_EQ(points[2].restitution, 0.75);
-  EXPECT_EQ(result.dataset.series, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(result.dataset.series.size(), 1U);  // a launch is no series
+  EXPECT_EQ(points[1].launch, "a");
+  EXPECT_EQ(points[2].launch, "b");
   // Times s1, s2, s3 of bounces with independent errors: e = (s3 - s2) / (s2 - s1), so that
   // var e = (tau / t)^2 (1 + (1 + e)^2 + e^2).
   EXPECT_NEAR(*points[0].restitution_sd, 0.001 / 0.4 * std::sqrt(1.0 + 1.8 * 1.8 + 0.64), 1e-9);
@@ -176,6 +178,79 @@ TEST(Intervals, TwoLaunchesOfOneNameAreNotMixed) {
   const auto points = recoil::import_points(request).dataset.points;
   ASSERT_EQ(points.size(), 2U);
   EXPECT_DOUBLE_EQ(points[0].restitution, 0.8);
+}
+
+TEST(Intervals, ASeriesIsWhatTheUserCompares) {
+  const Place place;
+  auto request =
+      place.request("ball,run,t\nA,1,0.4\nA,1,0.32\nB,1,0.2\nB,1,0.15\n", ImportFormat::intervals);
+  request.map = {"series=ball,launch=run,interval=t:s"};
+  const Dataset two = recoil::import_points(request).dataset;
+  EXPECT_EQ(two.series, (std::vector<std::string>{"A", "B"}));
+  const Place other;
+  auto named = other.request("run,t\n1,0.4\n1,0.32\n2,0.2\n2,0.15\n", ImportFormat::intervals);
+  named.map = {"launch=run,interval=t:s"};
+  named.series = "ball";
+  EXPECT_EQ(recoil::import_points(named).dataset.series, (std::vector<std::string>{"ball"}));
+}
+
+// Three launches from one height, e = 0.8: in columns the rows are level.
+TEST(Intervals, LaunchesInColumnsAreRefusedWithTheMapThatReadsThem) {
+  const std::string labelled =
+      "Data,T 1,T 2,T 3\nBounce 1,400,401,399.5\nBounce 2,320,320.5,321\nBounce 3,256,256,256.5\n";
+  const std::string bare = "T 1,T 2,T 3\n400,401,399.5\n320,320.5,321\n256,256,256.5\n";
+  for (const std::string& text : {labelled, bare}) {
+    const Place place;
+    auto request = place.request(text, ImportFormat::intervals);
+    request.map = {"interval=T 1+T 2+T 3:ms"};
+    const std::string said = complaint(request);
+    const std::string before = "--map ";
+    const std::size_t at = said.find(before + "'");
+    ASSERT_NE(at, std::string::npos) << said;
+    const std::size_t first = at + before.size() + 1;
+    request.map = {said.substr(first, said.find('\'', first) - first)};
+    request.transpose = true;
+    const Dataset made = recoil::import_points(request).dataset;
+    ASSERT_EQ(made.points.size(), 6U);
+    EXPECT_EQ(made.series.size(), 1U);
+    EXPECT_NEAR(made.points[0].restitution, 0.8, 1e-9);
+    EXPECT_NEAR(made.points[1].restitution, 0.8, 1e-9);
+    EXPECT_EQ(made.points[2].launch, "T 2");
+  }
+  // Launches in rows, from heights in any order, are read.
+  const Place place;
+  auto rows = place.request(
+      "run,t1,t2,t3\n1,0.40,0.32,0.256\n2,0.39,0.312,0.25\n"
+      "3,0.38,0.304,0.243\n",
+      ImportFormat::intervals);
+  rows.map = {"interval=t1+t2+t3:s"};
+  EXPECT_EQ(recoil::import_points(rows).dataset.points.size(), 6U);
+}
+
+TEST(Flights, OneImpossibleImpactIsLeftOutAndMostOfThemAreRefused) {
+  const auto heights = [](const std::string& text) {
+    const Place place;
+    auto request = place.request(text, ImportFormat::heights);
+    request.map = {"drop_height=a:m,rebound_height=b:m"};
+    try {
+      return recoil::import_points(request).dataset.points.size();
+    } catch (const recoil::InputError& error) {
+      EXPECT_EQ(error.where().line, 2);
+      return std::size_t{0};
+    }
+  };
+  EXPECT_EQ(heights("a,b\n1,0.5\n1,1.6\n1,0.52\n1,0.49\n"), 3U);
+  EXPECT_EQ(heights("a,b\n1,1.1\n1,1.12\n1,0.9\n"), 0U);
+  EXPECT_EQ(heights("a,b\n0.8,1\n0.5,1\n0.7,1\n"), 0U);  // exchanged
+  const Place place;
+  auto timed =
+      place.request("run,t\n1,0.4\n1,0.32\n1,0.5\n1,0.4\n2,0.3\n2,0.24\n", ImportFormat::intervals);
+  timed.map = {"launch=run,interval=t:s"};
+  const auto result = recoil::import_points(timed);
+  EXPECT_EQ(result.dataset.points.size(), 3U);
+  EXPECT_TRUE(std::ranges::any_of(result.notes, [](const recoil::ImportNote& note) {
+    return note.remark == recoil::ImportRemark::impossible_left_out && note.names.size() == 1;
+  }));
 }
 
 TEST(Intervals, TheReleaseHeightIsChecked) {

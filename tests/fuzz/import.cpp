@@ -56,6 +56,8 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
       request.map = {"launch=run,block_time=T:s,bounces=n"};
       request.time_error = "1ms";
       break;
+    case recoil::ImportFormat::recording:
+      break;
     case recoil::ImportFormat::csv:
       request.map = {"incident_velocity=V:m/s"};
       break;
