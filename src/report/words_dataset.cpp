@@ -268,8 +268,8 @@ std::string note_sentence(const ImportNote& note) {
              " that the film lost or shows twice, as steps of double or no length tell, were "
              "allowed for";
     case shared_bounces:
-      return "successive points of one launch share a flight; without --time-error a fit takes "
-             "their errors as independent";
+      return "successive points of one launch share a flight; a fit takes their errors as "
+             "independent";
     case no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
     case licence_removed:
