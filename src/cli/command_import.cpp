@@ -133,7 +133,7 @@ void add_import(Program& program) {
       "import",
       "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
 Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
-bounces), track (heights over time) and csv. --map assigns columns to quantities, with units: um,
+bounces), track (heights over time), recording (a sound file) and csv. --map assigns columns to quantities, with units: um,
 mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere, a number without a unit counts in um if it is a
 diameter, otherwise in the SI unit. import overwrites points only with --replace.
 
@@ -145,6 +145,7 @@ diameter, otherwise in the SI unit. import overwrites points only with --replace
     --map launch=run,interval=t:s --time-error 1ms --like datasets/ball
   recoil import ball.txt --format track --into datasets/ball3 --diameter 40mm \
     --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete
+  recoil import bounces.wav --format recording --into datasets/ball4 --like datasets/ball
   recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \
     --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)",
       run_import);

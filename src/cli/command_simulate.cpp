@@ -226,7 +226,8 @@ void warn_if_far(const Dataset& dataset, double diameter) {
   const std::vector<double> measured = distinct_diameters(dataset);
   if (measured.empty()) return;
   if (diameter * far > measured.front() && diameter < measured.back() * far) return;
-  print_text(stderr, "warning: the spheres of {} measure {:.4g} to {:.4g} um, but this one {:.4g} um\n",
+  print_text(stderr,
+             "warning: the spheres of {} measure {:.4g} to {:.4g} um, but this one {:.4g} um\n",
              dataset.id, in_um(measured.front()), in_um(measured.back()), in_um(diameter));
 }
 

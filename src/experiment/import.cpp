@@ -137,6 +137,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
     case ImportFormat::heights:
       return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
+    case ImportFormat::recording:
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
       return read_track(request, sphere_in_air(system));
@@ -397,6 +398,11 @@ ImportResult import_points(const ImportRequest& request) {
   ImportResult result;
   Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported = read_parts(parts, system, units);
+  if (imported.points.empty() && request.format == ImportFormat::track) {
+    throw InputError({request.file.string()}, "no impact was found in these tracks",
+                     "it needs a minimum with 4 samples of free flight on either side",
+                     "check the columns in --map, or film with more frames per second");
+  }
   resolve_diameters(request, imported);
   add_scatter(request, imported.points);
   require_possible(request, imported);

@@ -19,11 +19,12 @@ enum class ImportFormat {
   intervals,         ///< times of successive bounces, or between them
   csv,               ///< any table, with a map of its columns
   track,             ///< heights over time
+  recording,         ///< the sound of a ball that bounces
 };
 
 /// The names of the formats on the command line.
 constexpr auto names_of_values(ImportFormat) {
-  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track");
+  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track", "recording");
 }
 
 /// The file to import and the information that it lacks, as on the command line. Quantities are
@@ -107,6 +108,8 @@ enum class ImportRemark {
   track_fall,              ///< tracks: `fall` differs from `gravity`
   frames_repeated,         ///< tracks: `count` frames show the one before again
   frames_mended,           ///< tracks: `count` rows are not one frame after the row before
+  impacts_heard,           ///< recording: `count` impacts, with the error `time_sd` of an instant
+  tracks_without_impact,   ///< `names`: launches or files
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
@@ -140,6 +143,7 @@ struct ImportNote {
   AirShare air = {};
   double fall = 0.0;     ///< measured acceleration [m/s2]
   double gravity = 0.0;  ///< [m/s2]
+  double time_sd = 0.0;  ///< [s]
 };
 
 struct ImportResult {

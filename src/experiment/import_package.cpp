@@ -90,6 +90,7 @@ Provenance provenance_for(const ImportRequest& request,
     case ImportFormat::heights:
     case ImportFormat::intervals:
     case ImportFormat::track:
+    case ImportFormat::recording:
       return Provenance::measured;
     case ImportFormat::csv:
       break;
@@ -157,6 +158,7 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           "g h1) with g = {} m/s2, {}.",
           source_name(request), request.gravity, air_words(air));
     case ImportFormat::intervals:
+    case ImportFormat::recording:
       return fmt::format(
           "Times between bounces, imported from {}: e is the ratio of successive "
           "intervals, V = g t / 2 with g = {} m/s2, {}.",
@@ -317,7 +319,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   if (!left.left_out.empty()) notes.push_back(left);
   put_conditions(request, stated);
   if (request.format == ImportFormat::heights) stated["method"] = name_of(Method::drop_heights);
-  if (request.format == ImportFormat::intervals) {
+  if (request.format == ImportFormat::intervals || request.format == ImportFormat::recording) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
   if (request.format == ImportFormat::track) stated["method"] = name_of(Method::video);

@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "data/text.hpp"
 #include "experiment/import_table.hpp"
+#include "experiment/recording.hpp"
 
 namespace recoil {
 namespace {
@@ -179,6 +181,18 @@ std::vector<Run> runs_of(ImportRequest& request) {
   return track ? track_runs(rows) : phyphox_runs(request, rows);
 }
 
+/// Makes a table of the instants of a recording, with their error unless the request states one.
+void listen(ImportRequest& request, std::vector<ImportNote>& notes) {
+  const HeardImpacts heard =
+      hear_impacts(request.text ? *request.text : read_bytes(request.file), request.file.string());
+  request.text = heard.table;
+  request.map.emplace_back("time=time:s");
+  ImportNote note{ImportRemark::impacts_heard, {}, heard.count};
+  note.time_sd = heard.time_sd;
+  notes.push_back(note);
+  if (request.time_error.empty()) request.time_error = fmt::format("{:.9g}s", heard.time_sd);
+}
+
 }  // namespace
 
 std::vector<ImportPart> import_parts(const ImportRequest& request, std::vector<ImportNote>& notes) {
@@ -189,6 +203,7 @@ std::vector<ImportPart> import_parts(const ImportRequest& request, std::vector<I
     ImportRequest one = request;
     one.file = file;
     one.more_files.clear();
+    if (one.format == ImportFormat::recording) listen(one, notes);
     if (!one.text) one.text = table_text(one, notes);
     const std::string name = files.size() > 1 ? file.stem().string() : "";
     const std::vector<Run> runs = runs_of(one);

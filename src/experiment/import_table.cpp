@@ -13,6 +13,7 @@
 #include "core/files.hpp"
 #include "data/text.hpp"
 #include "experiment/column_names.hpp"
+#include "experiment/recording.hpp"
 #include "experiment/workbook.hpp"
 
 namespace recoil {
@@ -353,6 +354,9 @@ std::string table_text(const ImportRequest& request, std::vector<ImportNote>& no
     note.names.insert(note.names.end(), sheet.others.begin(), sheet.others.end());
     notes.push_back(note);
     return std::move(sheet.table);
+  }
+  if (is_recording(bytes)) {
+    throw InputError({file}, "this is a recording, not a table", "", "write --format recording");
   }
   if (!request.sheet.empty()) {
     throw InputError({file}, "--sheet, but this is not a workbook",

@@ -24,6 +24,7 @@ struct Sample {
 /// The samples of one ball, by time.
 struct Track {
   std::string series;
+  std::string launch;
   std::optional<double> diameter;  ///< [m]
   std::vector<Sample> samples;
 };
@@ -387,6 +388,28 @@ class TrackReader {
         out_{{}, table.notes()} {}
 
   void read(const Track& track) {
+    const std::size_t before = out_.points.size();
+    read_impacts(track);
+    if (out_.points.size() == before) {
+      without_.names.push_back(track.launch.empty() ? request_.file.stem().string() : track.launch);
+    }
+  }
+
+  ImportedPoints result() {
+    if (!without_.names.empty()) out_.notes.push_back(without_);
+    if (skipped_ > 0) out_.notes.push_back({ImportRemark::impacts_skipped, {}, skipped_});
+    ImportNote fall{ImportRemark::track_fall};
+    if (!falls_.empty()) fall.fall = median(falls_);
+    fall.gravity = request_.gravity;
+    if (scaled_ && !falls_.empty() && std::abs(fall.fall / fall.gravity - 1.0) > 0.02)
+      out_.notes.push_back(fall);
+    flights_.add_notes(out_.notes);
+    out_.notes.push_back({ImportRemark::shared_bounces});
+    return out_;
+  }
+
+ private:
+  void read_impacts(const Track& track) {
     const std::vector<Sample>& samples = track.samples;
     if (samples.size() < 2 * fewest_samples) return;
     const std::vector<std::size_t> impacts = impacts_of(samples);
@@ -417,25 +440,6 @@ class TrackReader {
     }
   }
 
-  ImportedPoints result() {
-    if (out_.points.empty()) {
-      throw InputError({request_.file.string()}, "no impact was found in these tracks",
-                       fmt::format("it needs a minimum with {} samples of free flight on either "
-                                   "side",
-                                   fewest_samples),
-                       "check the columns in --map, or film with more frames per second");
-    }
-    if (skipped_ > 0) out_.notes.push_back({ImportRemark::impacts_skipped, {}, skipped_});
-    ImportNote fall{ImportRemark::track_fall};
-    fall.fall = median(falls_);
-    fall.gravity = request_.gravity;
-    if (scaled_ && std::abs(fall.fall / fall.gravity - 1.0) > 0.02) out_.notes.push_back(fall);
-    flights_.add_notes(out_.notes);
-    out_.notes.push_back({ImportRemark::shared_bounces});
-    return out_;
-  }
-
- private:
   /// The fall of a fit. Without a scale, the fall with g tells the length of a metre.
   Fall fall_of(const Parabolas& fit, const AirFlight* air) const {
     const double a = fit.values(fit.values.size() - 1);
@@ -507,6 +511,7 @@ class TrackReader {
   Flights& flights_;
   std::vector<double> falls_;  ///< a of each ball [m/s2], or pixels/s2
   std::size_t skipped_ = 0;
+  ImportNote without_{ImportRemark::tracks_without_impact};
   ImportedPoints out_;
 };
 
@@ -521,9 +526,10 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
   const std::string clock = table.has("time") ? "time" : "frame";
   for (std::size_t r = 0; r < table.size(); ++r) {
     const std::string series = table.name(r, "series");
-    const auto [known, added] = index.try_emplace({series, table.text(r, "launch")}, tracks.size());
+    const std::string launch = table.text(r, "launch");
+    const auto [known, added] = index.try_emplace({series, launch}, tracks.size());
     if (added) {
-      tracks.push_back({series, table.value(r, "diameter"), {}});
+      tracks.push_back({series, launch, table.value(r, "diameter"), {}});
       rows.push_back(0.0);
     }
     const double number = rows[known->second]++;

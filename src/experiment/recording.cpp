@@ -27,21 +27,21 @@ constexpr std::size_t most_impacts = 500;
 constexpr double lowest_pitch = 200.0;  // [Hz]
 constexpr double louder = 8.0;          // energy of an impact over that before it
 
-/// Bytes that libsndfile reads as a file.
-struct Bytes {
+/// RecordedBytes that libsndfile reads as a file.
+struct RecordedBytes {
   std::string_view bytes;
   sf_count_t at = 0;
 
-  static Bytes& of(void* self) { return *static_cast<Bytes*>(self); }
+  static RecordedBytes& of(void* self) { return *static_cast<RecordedBytes*>(self); }
   static sf_count_t size(void* self) { return std::ssize(of(self).bytes); }
   static sf_count_t seek(sf_count_t offset, int whence, void* self) {
-    Bytes& file = of(self);
+    RecordedBytes& file = of(self);
     const sf_count_t from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? file.at : size(self);
     file.at = std::clamp<sf_count_t>(from + offset, 0, size(self));
     return file.at;
   }
   static sf_count_t read(void* to, sf_count_t count, void* self) {
-    Bytes& file = of(self);
+    RecordedBytes& file = of(self);
     const sf_count_t got = std::clamp<sf_count_t>(count, 0, size(self) - file.at);
     std::memcpy(to, file.bytes.data() + file.at, static_cast<std::size_t>(got));
     file.at += got;
@@ -58,8 +58,9 @@ struct Sound {
 
 /// The mean of the channels.
 Sound read_sound(const std::string& bytes, const std::string& file) {
-  Bytes source{bytes};
-  SF_VIRTUAL_IO access{Bytes::size, Bytes::seek, Bytes::read, Bytes::write, Bytes::tell};
+  RecordedBytes source{bytes};
+  SF_VIRTUAL_IO access{RecordedBytes::size, RecordedBytes::seek, RecordedBytes::read,
+                       RecordedBytes::write, RecordedBytes::tell};
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, decltype(&sf_close)> sound(
       sf_open_virtual(&access, SFM_READ, &info, &source), &sf_close);

@@ -263,10 +263,15 @@ std::string note_sentence(const ImportNote& note) {
     case frames_repeated:
       return counted(note.count, "frame") +
              " left out: the film repeats frames, so that the ball stands still in flight";
+    case tracks_without_impact:
+      return fmt::format("no impact was found in {}", names);
     case frames_mended:
       return "the rows count as frames; " + counted(note.count, "frame") +
              " that the film lost or shows twice, as steps of double or no length tell, were "
              "allowed for";
+    case impacts_heard:
+      return fmt::format("{} heard; an instant is known to {:.2g} ms (--time-error sets it)",
+                         counted(note.count, "impact"), note.time_sd / units::ms);
     case shared_bounces:
       return "successive points of one launch share a flight; a fit takes their errors as "
              "independent";

@@ -340,7 +340,7 @@ TEST(LoadDataset, WarnsOfUnitsThatContradictEachOther) {
     return load_dataset(DatasetFolder(example::package, header + rows).path()).warnings;
   };
   // Errors in mm/s beside velocities in m/s; e in per cent that is called a ratio of per cent.
-  const auto errors = warnings("a,5,0.1,0.5,,3,,\na,5,2,0.6,,0.2,,\n");
+  const auto errors = warnings("a,5,0.1,0.5,,300,,\na,5,2,0.6,,0.2,,\n");
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_EQ(errors[0].remark, PointRemark::error_above_velocity);
   EXPECT_EQ(errors[0].count, 1U);

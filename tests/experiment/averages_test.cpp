@@ -156,7 +156,8 @@ TEST(Averages, EveryReboundIsInAPoint) {
     double error;     ///< of a velocity [1]
     std::size_t few;  ///< impacts at a velocity of their own
   };
-  for (const auto& [error, few] : {Case{0.01, 0}, Case{0.0005, 0}, Case{1e-6, 0}, Case{0.0005, 3}}) {
+  for (const auto& [error, few] :
+       {Case{0.01, 0}, Case{0.0005, 0}, Case{1e-6, 0}, Case{0.0005, 3}}) {
     Made made;
     made.pairs.velocity_spread = error;
     for (int i = 0; i < 500; ++i) {  // 0.35 to 1.6 m/s, evenly but for the golden ratio's shifts

@@ -120,6 +120,7 @@ TEST(Table, UsualNamesNeedNoMap) {
   // The header and --map contradict each other.
   auto other = place.request("V (cm/s),e\n2,0.8\n", ImportFormat::csv);
   other.map = {"incident_velocity=\"V (cm/s)\":m/s"};
+  other.into = place.folder() / "other";
   EXPECT_THAT(complaint(other), AllOf(HasSubstr("input.csv:1:1:"), HasSubstr("'m/s'")));
 }
 

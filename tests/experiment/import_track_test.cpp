@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -150,7 +151,7 @@ TEST(Track, RepeatedFramesAreLeftOut) {
 TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
   // No header and no times: x;y; in pixels of 2 mm, with a lost frame in a flight of each launch.
   const Ball ball{0.8, 0.7, 0.2, 3};
-  std::string text;
+  std::string text = "x;y;launch;\n";
   for (const char* const launch : {"one", "two"}) {
     for (int i = 0; i / 100.0 < ball.end(); ++i) {
       if (i == 70) continue;
@@ -159,19 +160,49 @@ TEST(Track, RowsCountAsFramesAndLostFramesAreAllowedFor) {
   }
   const Place place;
   auto request = place.request(text, ImportFormat::track);
-  request.map = {"pixel=2,launch=3"};
+  request.map = {"pixel=y,launch=launch"};
   request.fps = 100.0;
   request.series = "ball";
   const auto made = recoil::import_points(request);
   ASSERT_EQ(made.dataset.points.size(), 6U);
+  EXPECT_EQ(made.dataset.series, std::vector<std::string>{"ball"});
   for (const auto& point : made.dataset.points) {
-    EXPECT_EQ(point.series, "ball");
     EXPECT_NEAR(point.restitution, 0.7, 1e-4);
   }
   const auto mended = std::ranges::find(made.notes, recoil::ImportRemark::frames_mended,
                                         &recoil::ImportNote::remark);
   ASSERT_NE(mended, made.notes.end());
   EXPECT_EQ(mended->count, 2U);
+}
+
+/// The shipped points are those that the shipped tracks give.
+TEST(Track, TheShippedTracksGiveTheShippedPoints) {
+  for (const char* const surface : {"table", "floor", "racket"}) {
+    const auto folder =
+        std::filesystem::path(RECOIL_SOURCE_DIR) / fmt::format("datasets/table-tennis-{}", surface);
+    std::vector<std::filesystem::path> tracks;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "tracks")) {
+      tracks.push_back(entry.path());
+    }
+    std::ranges::sort(tracks);
+    const Place place;
+    auto request = table_tennis(place, "");
+    request.file = tracks.front();
+    request.more_files.assign(tracks.begin() + 1, tracks.end());
+    request.map = {"pixel=2"};
+    request.fps = 100.0;
+    request.scale = "1.50494mm";
+    request.series = fmt::format("ball on {}", surface);
+    request.particle = "material=celluloid,density=80.57,youngs_modulus=2e9,poisson_ratio=0.35";
+    const Dataset made = recoil::import_points(request).dataset;
+    const Dataset shipped = recoil::load_dataset(folder);
+    ASSERT_EQ(made.points.size(), shipped.points.size()) << surface;
+    for (std::size_t k = 0; k < made.points.size(); ++k) {
+      EXPECT_NEAR(made.points[k].restitution, shipped.points[k].restitution, 1e-6);
+      EXPECT_NEAR(made.points[k].incident_velocity, shipped.points[k].incident_velocity, 1e-6);
+    }
+    EXPECT_EQ(shipped.provenance, recoil::Provenance::measured);
+  }
 }
 
 TEST(Track, TheStatedErrorsHoldTheTruth) {

@@ -44,6 +44,35 @@ TEST(PairCommand, EventsToADatasetThatCheckAccepts) {
   EXPECT_NE(check.out.find("in 2 series"), std::string::npos) << check.out;
 }
 
+// Dantec's columns, decimal commas, a preamble, and the micro sign of Windows-1252.
+TEST(PairCommand, AnInstrumentsFileGivesTheSamePoints) {
+  const Workplace place;
+  stream::Design design;
+  design.spheres = 300;
+  std::string text = stream::simulate(design).csv;
+  place.write("plain.csv", text);
+  std::replace(text.begin(), text.end(), ',', '\t');
+  std::replace(text.begin(), text.end(), '.', ',');
+  const std::size_t rows = text.find('\n');
+  std::string header = "\t" + text.substr(0, rows) + "\t";
+  for (const auto& [name, title] : {std::pair("\ttime\t", "\t\"AT [s]\"\t"),
+                                    {"\tvelocity\t", "\t\"LDA1 [m/s]\"\t"},
+                                    {"\ttangential_velocity\t", "\t\"LDA2 [m/s]\"\t"},
+                                    {"\tdiameter\t", "\t\"D [\xB5m]\"\t"}}) {
+    const std::size_t at = header.find(name);
+    ASSERT_NE(at, std::string::npos) << name;
+    header.replace(at, std::string(name).size(), title);
+  }
+  place.write("bsa.txt", "DXEX v5\nrun7.lda\n1;0,00 mm\n" + header.substr(1) + text.substr(rows));
+  const Outcome plain =
+      place.run({"pair", "plain.csv", "--unit", kUnits, "--out", "plain-points.csv"});
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  const Outcome bsa = place.run(
+      {"pair", "bsa.txt", "--column", "velocity=LDA1,tangential_velocity=LDA2", "--out", "p.csv"});
+  ASSERT_EQ(bsa.status, 0) << bsa.err;
+  EXPECT_EQ(place.read("p.csv"), place.read("plain-points.csv"));
+}
+
 TEST(PairCommand, PrintedConstantsOfTheOtherDatasetAreNotTakenOver) {
   const Workplace place;
   place.write("e.csv", small_stream().csv);

@@ -148,7 +148,8 @@ struct InstrumentFile {
 TEST(Events, FilesOfInstruments) {
   const InstrumentFile files[] = {
       {"Dantec BSA Flow Software, decimal points",
-       "DXEX v4\r\nD:\\run7\r\n\r\n\"Row#\"\t\"AT [ms]\"\t\"TT [µs]\"\t\"LDA1 [m/s]\"\t\"D [µm]\"\r\n"
+       "DXEX v4\r\nD:\\run7\r\n\r\n\"Row#\"\t\"AT [ms]\"\t\"TT [µs]\"\t\"LDA1 [m/s]\"\t\"D "
+       "[µm]\"\r\n"
        "1\t10.0\t30.0\t1.25\t60.5\r\n2\t12.5\t30.0\t-1.125\t60.0\r\n",
        3},
       {"the same, decimal commas, an empty cell at the end of the header",

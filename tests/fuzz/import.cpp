@@ -45,6 +45,8 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
     case recoil::ImportFormat::track:
       if (!programs) request.map = {"time=t:s,pixel=y"};
       break;
+    case recoil::ImportFormat::recording:
+      break;
     case recoil::ImportFormat::csv:
       request.map = {"incident_velocity=V:m/s"};
       break;
