@@ -308,7 +308,7 @@ const std::vector<MadePart>& parts() {
   static const std::vector<MadePart> all = {
       {"commands for data",
        [](const Program& program) {
-         return commands_table(program, {"check", "init", "import", "materials"});
+         return commands_table(program, {"check", "init", "import", "bounce", "materials"});
        }},
       {"commands for fits",
        [](const Program& program) {

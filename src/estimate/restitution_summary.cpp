@@ -490,6 +490,24 @@ bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
   return p < lack_of_fit_level;
 }
 
+/// The scatter of the points of settings about their means; nullopt without stated errors.
+std::optional<LineScatter> scatter_within(
+    const std::map<std::size_t, std::vector<Reading>>& settings) {
+  double square = 0.0, freedom = 0.0;
+  for (const auto& [place, readings] : settings) {
+    double w = 0.0, sum = 0.0;
+    for (const Reading& r : readings) {
+      if (!(r.sd > 0.0)) return std::nullopt;
+      w += 1.0 / (r.sd * r.sd);
+      sum += r.e / (r.sd * r.sd);
+    }
+    for (const Reading& r : readings) square += std::pow((r.e - sum / w) / r.sd, 2);
+    freedom += static_cast<double>(readings.size()) - 1.0;
+  }
+  if (!(freedom > 0.0)) return std::nullopt;
+  return LineScatter{std::sqrt(square / freedom), gsl_cdf_chisq_Q(square, freedom)};
+}
+
 /// The mean of a setting or launch.
 struct BatchMean {
   Reading reading;  ///< `e`, `velocity`: means; `sd`: the error of this mean
@@ -631,7 +649,12 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
   const bool scattered = of_launches.empty() && places_scatter(readings, Line(readings, series));
   const std::vector<Reading> used = scattered ? means_of_places(readings) : readings;
   const Line line(used, series);
-  summary.scatter = scattered ? Line(readings, series).stated_scatter() : line.stated_scatter();
+  // An error that a setting shares is none of its repeats.
+  const bool shared = std::ranges::any_of(
+      readings, [](const Reading& r) { return r.point->setting_velocity_sd.value_or(0.0) > 0.0; });
+  summary.scatter = shared      ? scatter_within(of_settings)
+                    : scattered ? Line(readings, series).stated_scatter()
+                                : line.stated_scatter();
   const auto s = static_cast<Eigen::Index>(series);
   const auto assess = [&](const Eigen::VectorXd& contrast, const Eigen::MatrixXd& all,
                           TestedEffect& effect) {

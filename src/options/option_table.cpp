@@ -59,7 +59,8 @@ const std::vector<OptionRow>& option_rows() {
       {"import", "FILE", repeated(path("FILE")),
        "what to import; - for standard input; several files are launches of one ball", required},
       {"bounce", "FILE", repeated(path("FILE")),
-       "heights, times or tracks; - for standard input; several files are launches of one ball",
+       "heights, times, tracks or a recording; - for standard input; several files are launches of "
+       "one ball",
        required},
       {"pair", "PASSAGES", path("PASSAGES"),
        "CSV file, one row per passage: time, velocity, diameter; optional tangential_velocity and "
@@ -118,7 +119,8 @@ const std::vector<OptionRow>& option_rows() {
        "measured"},
       {"init", "--diameter", diameter(), "diameter of all spheres"},
       {"import", "--format", one_of(all_names<ImportFormat>()), "what the file holds", required},
-      {"bounce", "--format", one_of({"heights", "intervals", "track", "rest", "tops", "blocks"}),
+      {"bounce", "--format",
+       one_of({"heights", "intervals", "track", "recording", "rest", "tops", "blocks"}),
        "what the file holds", required},
       {"bounce", "--ball", text("NAME"),
        "table-tennis, tennis, golf or squash, with size and mass of the rules; or a material "

@@ -159,7 +159,7 @@ TEST(RestitutionSummary, DiametersOfOneSizeMakeOneSeries) {
 Dataset timed_launches(std::size_t launches, double a, double b, double of_instants, double scatter,
                        std::mt19937& random) {
   constexpr double g = 9.80665;
-  constexpr int bounces = 7;
+  constexpr int flights = 7;
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> start(3.0, 4.0);
   Dataset data = dataset_of({});
@@ -168,7 +168,7 @@ Dataset timed_launches(std::size_t launches, double a, double b, double of_insta
     std::vector<double> instants = {of_instants * normal(random)};
     double velocity = start(random);
     double exact = 0.0;
-    for (int k = 0; k < bounces; ++k) {
+    for (int k = 0; k < flights; ++k) {
       exact += 2.0 * velocity / g;
       instants.push_back(exact + of_instants * normal(random));
       velocity *= a + b * std::log10(velocity) + scatter * normal(random);

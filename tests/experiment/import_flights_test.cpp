@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/random.hpp"
 #include "import_folder.hpp"
@@ -225,6 +226,30 @@ TEST(Intervals, LaunchesInColumnsAreRefusedWithTheMapThatReadsThem) {
       ImportFormat::intervals);
   rows.map = {"interval=t1+t2+t3:s"};
   EXPECT_EQ(recoil::import_points(rows).dataset.points.size(), 6U);
+}
+
+// In vacuum e = sqrt(0.5), 0.8 and 0.7; a ball of 2.7 g and 40 mm loses more to the air than one of
+// 1140 kg/m3.
+TEST(Bounces, NeedNoMaterials) {
+  const Place place;
+  auto request = place.request("ball,h1,h2\na,1,0.5\nb,1,0.64\na,1,0.49\n", ImportFormat::heights);
+  request.map = {"series=ball,drop_height=h1:m,rebound_height=h2:m"};
+  request.diameters = {"40mm"};
+  request.particle.clear();
+  request.surface.clear();
+  request.conditions = {"ambient_pressure=0"};
+  const Dataset vacuum = recoil::read_bounces(request, 1140.0).dataset;
+  ASSERT_EQ(vacuum.points.size(), 3U);
+  EXPECT_EQ(vacuum.series, (std::vector<std::string>{"a", "b"}));
+  EXPECT_NEAR(vacuum.points[0].restitution, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(vacuum.points[1].restitution, 0.8, 1e-12);
+  EXPECT_EQ(vacuum.points[2].series, 0U);
+  request.conditions = {"ambient_pressure=101325"};
+  const double heavy = recoil::read_bounces(request, 1140.0).dataset.points[1].restitution;
+  const double light = recoil::read_bounces(request, 80.57).dataset.points[1].restitution;
+  EXPECT_GT(heavy, 0.8);
+  EXPECT_GT(light, heavy + 0.01);
+  EXPECT_FALSE(std::filesystem::exists(request.into));
 }
 
 TEST(Flights, OneImpossibleImpactIsLeftOutAndMostOfThemAreRefused) {

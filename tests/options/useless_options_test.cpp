@@ -45,6 +45,7 @@ TEST(UselessOptions, AreRefusedBesideWhatMakesThemUseless) {
            {"import", "--sd-of", {"one"}, {{"--format", {"heights"}}}, {{"--format", {"csv"}}}},
            {"import", "--gravity", {"1.6"}, {{"--format", {"csv"}}}, {{"--format", {"track"}}}},
            {"import", "--fps", {"9"}, {{"--format", {"csv"}}}, {{"--format", {"track"}}}},
+           {"bounce", "--fps", {"9"}, {{"--format", {"heights"}}}, {{"--format", {"track"}}}},
            {"init", "--sheet", {"a"}, {}, {{"--points", {"p.xlsx"}}}},
            {"init", "--provenance", {"digitised"}, {}, {{"--points", {"p.csv"}}}},
            {"fit", "--scheme", {"wild"}, {{"--replicates", {"0"}}}, {{"--replicates", {"99"}}}},
@@ -76,7 +77,7 @@ TEST(UselessOptions, AreRefusedBesideWhatMakesThemUseless) {
 
 /// Options that are in no list of any row do something with their defaults.
 TEST(UselessOptions, NoOptionIsRefusedAloneWithoutAReason) {
-  const std::vector<std::string_view> conditional = {"init",   "pair",   "plan",
+  const std::vector<std::string_view> conditional = {"init",   "pair",   "plan",   "bounce",
                                                      "import", "export", "cluster"};
   for (const OptionRow& row : option_rows()) {
     const std::string commands(row.commands);
