@@ -240,7 +240,7 @@ void require_possible(const ImportRequest& request, ImportedPoints& imported) {
                                  imported.points.size()),
                      "a ball returns no faster than it came, apart from errors", how);
   }
-  if (impossible == 0) return;
+  if (impossible == 0 || 2 * impossible > imported.points.size()) return;
   ImportNote note{ImportRemark::impossible_left_out};
   std::erase_if(imported.points, [&](const ImportedPoint& point) {
     const double e = point.restitution().value_or(0.0);
