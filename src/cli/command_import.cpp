@@ -133,9 +133,11 @@ void add_import(Program& program) {
       "import",
       "make a dataset folder from digitised points, drop heights, bounce times or any table", R"(
 Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals (between
-bounces), track (heights over time), recording (a sound file) and csv. --map assigns columns to quantities, with units: um,
-mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere, a number without a unit counts in um if it is a
-diameter, otherwise in the SI unit. import overwrites points only with --replace.
+bounces), track (heights over time), rest (drop heights and times to rest), tops (heights of
+successive tops), blocks (times of several bounces together), recording (a sound file) and csv.
+--map assigns columns to quantities, with units: um, mm, cm, m, in; m/s, km/h; s, ms; %. Elsewhere,
+a number without a unit counts in um if it is a diameter, otherwise in the SI unit. import
+overwrites points only with --replace.
 
   recoil import fig7.csv --format webplotdigitizer --into datasets/mine \
     --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like datasets/wall1990-mica

@@ -75,11 +75,13 @@ class CsvReader {
     if (!at_end() && peek() == '"') {
       read_quoted(field);
     } else {
+      const std::size_t begin = at_;
       while (!at_cell_end()) {
         if (peek() == '"') fail_inside();
-        append(field);
+        step();
       }
-      field.text = std::string(trimmed(field.text));
+      if (at_ - begin > longest_cell) fail_too_long(field);
+      field.text = trimmed(text_.substr(begin, at_ - begin));
     }
     return field;
   }
@@ -102,12 +104,14 @@ class CsvReader {
   }
 
   void append(CsvField& field) {
-    if (field.text.size() == longest_cell) {
-      throw InputError({file_, field.line, field.column},
-                       fmt::format("a cell has more than {} characters", longest_cell), "",
-                       "look for a quotation mark that is never closed");
-    }
+    if (field.text.size() == longest_cell) fail_too_long(field);
     field.text += step();
+  }
+
+  [[noreturn]] void fail_too_long(const CsvField& field) const {
+    throw InputError({file_, field.line, field.column},
+                     fmt::format("a cell has more than {} characters", longest_cell), "",
+                     "look for a quotation mark that is never closed");
   }
 
   [[noreturn]] void fail_inside() const {
@@ -128,13 +132,15 @@ class CsvReader {
 }  // namespace
 
 void read_csv(std::string_view text, const std::string& file, char delimiter,
-              const std::function<void(const CsvRow&)>& on_row, char comment) {
+              const std::function<void(CsvRow&)>& on_row, char comment) {
   CsvReader reader(text, file, delimiter, comment);
   CsvRow row;
   while (reader.next(row)) on_row(row);
 }
 
 std::optional<double> parse_number(std::string_view text, const NumberFormat& format) {
+  const bool plain_digits = text.find_first_not_of("0123456789.") == text.npos;
+  if (plain_digits && format.decimal == "." && format.group.empty()) return parse_number(text);
   std::string plain(trimmed(text));
   replace_all(plain, "\u2212", "-");  // the minus of mathematics
   std::size_t whole =

@@ -23,7 +23,7 @@ using CsvRow = std::vector<CsvField>;
 
 /// Reads delimiter-separated text (RFC 4180) and calls `on_row` for one row after the other, the
 /// header first. Blank lines and blanks around unquoted cells are skipped (see `trimmed`). Only one
-/// row is in memory at a time.
+/// row is in memory at a time; `on_row` may move it away.
 ///
 /// @param file its name in messages
 /// @param delimiter between cells; ' ' stands for any number of blanks and tabs
@@ -31,7 +31,7 @@ using CsvRow = std::vector<CsvField>;
 /// @throws InputError for a quotation mark that is not closed or in the wrong place and for a cell
 ///   of more than 10,000 bytes; and what `on_row` throws.
 void read_csv(std::string_view text, const std::string& file, char delimiter,
-              const std::function<void(const CsvRow&)>& on_row, char comment = '\0');
+              const std::function<void(CsvRow&)>& on_row, char comment = '\0');
 
 /// The notation of numbers in a table: 2.5 or 2,5, and 2500 or 2.500 (Table Schema: decimalChar,
 /// groupChar).

@@ -98,6 +98,12 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
                "the angle gives the tangential velocity",
                "name the angle from the normal with --map incidence_angle=COLUMN:deg");
   }
+  std::vector<std::pair<Quantity, std::string>> numbers;
+  for (const ImportQuantity& quantity : known) {
+    const bool beside = quantity.name.ends_with("_sd");  // in the cell of its quantity
+    if (quantity.dimension == Dimension::text || (!table.has(quantity.name) && !beside)) continue;
+    numbers.emplace_back(*value_named<Quantity>(quantity.name), quantity.name);
+  }
   ImportedPoints out;
   out.points.reserve(table.size());
   for (std::size_t r = 0; r < table.size(); ++r) {
@@ -106,10 +112,7 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
     point.series = table.name(r, "series");
     point.setting = table.text(r, "setting");
     point.launch = table.text(r, "launch");
-    for (const ImportQuantity& quantity : known) {
-      if (quantity.dimension == Dimension::text) continue;
-      point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);
-    }
+    for (const auto& [quantity, name] : numbers) point.value[quantity] = table.value(r, name);
     const bool rebound = (direct && !table.lacks(r, "restitution")) ||
                          (speed && !table.lacks(r, "rebound_velocity")) ||
                          (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
@@ -141,6 +144,12 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
       return read_intervals(request, sphere_in_air(system));
     case ImportFormat::track:
       return read_track(request, sphere_in_air(system));
+    case ImportFormat::rest:
+      return read_rest(request, sphere_in_air(system));
+    case ImportFormat::tops:
+      return read_tops(request, sphere_in_air(system));
+    case ImportFormat::blocks:
+      return read_blocks(request, sphere_in_air(system));
     case ImportFormat::csv:
       break;
   }

@@ -20,11 +20,15 @@ enum class ImportFormat {
   csv,               ///< any table, with a map of its columns
   track,             ///< heights over time
   recording,         ///< the sound of a ball that bounces
+  rest,              ///< drop heights and times to rest
+  tops,              ///< heights of successive tops
+  blocks,            ///< times of several bounces together
 };
 
 /// The names of the formats on the command line.
 constexpr auto names_of_values(ImportFormat) {
-  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track", "recording");
+  return name_list("webplotdigitizer", "heights", "intervals", "csv", "track", "recording", "rest",
+                   "tops", "blocks");
 }
 
 /// The file to import and the information that it lacks, as on the command line. Quantities are
@@ -103,6 +107,8 @@ enum class ImportRemark {
   bounces_suspected,       ///< `names`: places where a bounce may be missing
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
+  shared_values,           ///< the same, and no fit can know it
+  mean_of_bounces,         ///< e is assumed to be the same at all bounces of a point
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
   axis_points_down,        ///< tracks: heights are measured downward
   track_fall,              ///< tracks: `fall` differs from `gravity`

@@ -65,6 +65,27 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
 /// earlier bounces are not listed. h is compared with the height that these flights imply.
 ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere);
 
+/// Reads drop heights h and times T from the release until rest. If all impacts have one e, in
+/// vacuum
+///   e = (T - t) / (T + t),   t = sqrt(2 h / g),   V = g t,
+///   sd(e) = 2 sqrt((t sd(T))^2 + (T sd(t))^2) / (T + t)^2.
+/// In air e is the one whose flights take this time. V is that of the first impact.
+ImportedPoints read_rest(const ImportRequest& request, const SphereInAir& sphere);
+
+/// Reads heights of successive tops of a launch, of which the first may be the release: e and V of
+/// the impact between two of them are those of a drop height and a rebound height (`read_heights`).
+/// An empty cell splits the launch. Two points share the error of the height between them; their
+/// errors are given as if independent.
+ImportedPoints read_tops(const ImportRequest& request, const SphereInAir& sphere);
+
+/// Reads times T_1, T_2 of successive blocks of n_1, n_2 flights of a launch. If all impacts have
+/// one e, in vacuum
+///   T_2 / T_1 = e^n_1 (1 - e^n_2) / (1 - e^n_1), which is e^n for equal n.
+/// In air e is the one whose flights take these times. V is that of the impact between the blocks.
+/// The errors follow from those of the three instants at the ends of the blocks; errors of
+/// successive points, which share instants, are given as if independent.
+ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphere);
+
 /// Reads WebPlotDigitizer's CSV: the names of the series in the first line, each over two columns,
 /// with X and Y in the second; or, for one series, two columns of numbers without a header. With
 /// `axes` and `reading_error` f (part of an axis), the standard deviations are

@@ -90,6 +90,9 @@ Provenance provenance_for(const ImportRequest& request,
     case ImportFormat::heights:
     case ImportFormat::intervals:
     case ImportFormat::track:
+    case ImportFormat::rest:
+    case ImportFormat::tops:
+    case ImportFormat::blocks:
     case ImportFormat::recording:
       return Provenance::measured;
     case ImportFormat::csv:
@@ -169,6 +172,23 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           "an impact meet, {}{}.",
           source_name(request), air_words(air),
           request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
+    case ImportFormat::rest:
+      return fmt::format(
+          "Drop heights and times to rest, imported from {}: e = (T - t) / (T + t) with the time "
+          "of "
+          "the fall t = sqrt(2 h / g), V = g t with g = {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
+    case ImportFormat::tops:
+      return fmt::format(
+          "Heights of successive tops, imported from {}: e = sqrt(h2 / h1), V = sqrt(2 g h1) with "
+          "g "
+          "= {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
+    case ImportFormat::blocks:
+      return fmt::format(
+          "Times of several bounces together, imported from {}: one e for two successive blocks, V "
+          "between them, with g = {} m/s2, {}.",
+          source_name(request), request.gravity, air_words(air));
     case ImportFormat::csv:
       break;
   }
@@ -318,8 +338,11 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   left.left_out = leave_out_contradictions(stated, own);
   if (!left.left_out.empty()) notes.push_back(left);
   put_conditions(request, stated);
-  if (request.format == ImportFormat::heights) stated["method"] = name_of(Method::drop_heights);
-  if (request.format == ImportFormat::intervals || request.format == ImportFormat::recording) {
+  if (request.format == ImportFormat::heights || request.format == ImportFormat::tops) {
+    stated["method"] = name_of(Method::drop_heights);
+  }
+  if (request.format == ImportFormat::intervals || request.format == ImportFormat::rest ||
+      request.format == ImportFormat::blocks || request.format == ImportFormat::recording) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
   if (request.format == ImportFormat::track) stated["method"] = name_of(Method::video);

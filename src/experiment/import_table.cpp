@@ -48,6 +48,7 @@ std::optional<double> diameter_in_name(const std::string& series) {
 bool is_unknown(const std::string& text) {
   static const std::set<std::string> words = {"",    "-",   "–",   "NA",   "N/A",  "n/a", "#N/A",
                                               "nan", "NaN", "NAN", "null", "NULL", "None"};
+  if (!text.empty() && text.front() >= '0' && text.front() <= '9') return false;
   return words.contains(text);
 }
 
@@ -378,10 +379,10 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
   blank_comments(text, lines, delimiter, request, notes);
   std::vector<CsvRow> rows;
   rows.reserve(lines.size());
-  read_csv(text, file, delimiter, [&](const CsvRow& row) {
+  read_csv(text, file, delimiter, [&](CsvRow& row) {
     const bool empty =
         std::ranges::all_of(row, [](const CsvField& cell) { return cell.text.empty(); });
-    if (!empty) rows.push_back(row);
+    if (!empty) rows.push_back(std::move(row));
   });
   if (rows.empty()) {
     throw InputError({file, 1, 1}, "the file is empty", "", "export the points again");
@@ -683,6 +684,7 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
 /// The standard deviation in the cell of its quantity: 0.02 in "0.85 ± 0.02".
 std::optional<double> ImportTable::error_beside(std::size_t row,
                                                 const std::string& quantity) const {
+  if (!quantity.ends_with("_sd")) return std::nullopt;
   for (const auto& [other, source] : columns_) {
     if (error_name(other) != quantity || source.scale.empty()) continue;
     const CsvField& cell = *cell_of(row, other);

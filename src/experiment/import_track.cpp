@@ -404,7 +404,7 @@ class TrackReader {
     if (scaled_ && !falls_.empty() && std::abs(fall.fall / fall.gravity - 1.0) > 0.02)
       out_.notes.push_back(fall);
     flights_.add_notes(out_.notes);
-    out_.notes.push_back({ImportRemark::shared_bounces});
+    out_.notes.push_back({ImportRemark::shared_values});
     return out_;
   }
 

@@ -119,7 +119,8 @@ const std::vector<OptionRow>& option_rows() {
        "measured"},
       {"init", "--diameter", diameter(), "diameter of all spheres"},
       {"import", "--format", one_of(all_names<ImportFormat>()), "what the file holds", required},
-      {"bounce", "--format", one_of({"heights", "intervals", "track", "recording"}),
+      {"bounce", "--format",
+       one_of({"heights", "intervals", "track", "recording", "rest", "tops", "blocks"}),
        "what the file holds", required},
       {"bounce", "--ball", text("NAME"),
        "table-tennis, tennis, golf or squash, with size and mass of the rules; or a material "

@@ -45,6 +45,17 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
     case recoil::ImportFormat::track:
       if (!programs) request.map = {"time=t:s,pixel=y"};
       break;
+    case recoil::ImportFormat::rest:
+      request.map = {"drop_height=h:m,rest_time=T:s"};
+      break;
+    case recoil::ImportFormat::tops:
+      request.map = {"launch=run,top=h:m"};
+      request.rebound_error = "1mm";
+      break;
+    case recoil::ImportFormat::blocks:
+      request.map = {"launch=run,block_time=T:s,bounces=n"};
+      request.time_error = "1ms";
+      break;
     case recoil::ImportFormat::recording:
       break;
     case recoil::ImportFormat::csv:
