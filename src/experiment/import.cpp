@@ -228,8 +228,7 @@ void require_possible(const ImportRequest& request, ImportedPoints& imported) {
     if (e > most) ++impossible;
   }
   const bool flights =
-      request.format == ImportFormat::heights || request.format == ImportFormat::intervals ||
-      request.format == ImportFormat::track || request.format == ImportFormat::recording;
+      request.format != ImportFormat::csv && request.format != ImportFormat::webplotdigitizer;
   if (!flights && impossible > 0) return;  // refused with its unit later
   if (above.size() > 1 && 2 * above.size() > imported.points.size()) {
     std::string how = "check the columns in --map, their units and the axes";
