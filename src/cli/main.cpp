@@ -1,4 +1,6 @@
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,7 +9,10 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
@@ -84,6 +89,21 @@ int run(const std::vector<std::string>& words) {
   }
 }
 
+/// The status of `run`, with a stack of 8 MB even where the limit of the first thread is lower.
+int run_with_stack(const std::vector<std::string>& words) {
+  constexpr std::size_t enough = 8U << 20U;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= enough) return run(words);
+  pthread_attr_t attributes{};
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, enough);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+  int status = no_answer;
+  std::thread([&] { status = run(words); }).join();
+  return status;
+}
+
 }  // namespace
 }  // namespace recoil
 
@@ -91,5 +111,5 @@ int main(int argc, char** argv) {
   recoil::open_standard_streams();
   recoil::gsl_errors_are_values();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
-  return recoil::run(std::vector<std::string>(argv + 1, argv + argc));
+  return recoil::run_with_stack(std::vector<std::string>(argv + 1, argv + argc));
 }

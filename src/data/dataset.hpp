@@ -66,7 +66,7 @@ enum class PointRemark {
   repeated,
   error_above_velocity,  ///< one standard deviation of a velocity is larger than the velocity
   tiny_restitution,      ///< no e of the dataset is above 0.02
-  other_bytes,  ///< the file has not the size or hash that datapackage.json states
+  other_bytes,           ///< the file has not the size or hash that datapackage.json states
 };
 
 /// All points with the same remark.

@@ -101,6 +101,7 @@ std::size_t drop_repeated_frames(std::vector<Track>& tracks) {
 std::size_t mend_frames(Track& track, double frame) {
   constexpr double clear = 10.0;      // smallest step over the noise
   constexpr double tolerance = 0.25;  // of a step
+  constexpr double alike = 0.6;       // of the steps before and after; an impact is in none of them
   const std::vector<double> steps = differences(track.samples, 1);
   const double least = clear * noise_of(track.samples);
   std::vector<Sample> mended;
@@ -110,7 +111,8 @@ std::size_t mend_frames(Track& track, double frame) {
     bool twice = false;
     const bool inside = i >= 2 && i + 1 < track.samples.size();
     if (inside && steps[i - 2] * steps[i] > 0.0 &&
-        std::min(std::abs(steps[i - 2]), std::abs(steps[i])) > least) {
+        std::min(std::abs(steps[i - 2]), std::abs(steps[i])) >
+            std::max(least, alike * std::max(std::abs(steps[i - 2]), std::abs(steps[i])))) {
       const double frames = 2.0 * steps[i - 1] / (steps[i - 2] + steps[i]);
       twice = std::abs(frames) < tolerance;
       const bool lost = std::abs(frames - 2.0) < tolerance;
@@ -404,7 +406,7 @@ class TrackReader {
     if (scaled_ && !falls_.empty() && std::abs(fall.fall / fall.gravity - 1.0) > 0.02)
       out_.notes.push_back(fall);
     flights_.add_notes(out_.notes);
-    out_.notes.push_back({ImportRemark::shared_bounces});
+    out_.notes.push_back({ImportRemark::shared_values});
     return out_;
   }
 

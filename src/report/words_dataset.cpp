@@ -273,8 +273,8 @@ std::string note_sentence(const ImportNote& note) {
       return fmt::format("{} heard; an instant is known to {:.2g} ms (--time-error sets it)",
                          counted(note.count, "impact"), note.time_sd / units::ms);
     case shared_bounces:
-      return "successive points of one launch share a flight; a fit takes their errors as "
-             "independent";
+      return "successive points of one launch share a measured value; without --time-error a fit "
+             "takes their errors as independent";
     case mean_of_bounces:
       return "every point is the mean of several bounces, which are taken to have one e";
     case no_source:

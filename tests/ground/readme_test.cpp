@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,37 @@ TEST(Readme, NamesEveryShippedDataset) {
     }
   }
   EXPECT_EQ(count, 9U);
+}
+
+TEST(Readme, TheFilmsOfTheManualAreThoseOfThePoints) {
+  const auto rows = page::table_of(tree::root() / "docs/table-tennis.md", "| dataset |");
+  for (const std::vector<std::string>& row : rows) {
+    const std::string folder = row.at(0).substr(1, row.at(0).size() - 2);
+    const double least = std::stod(row.at(1));
+    const double most = std::stod(row.at(1).substr(row.at(1).find("to ") + 3));
+    double count = 0.0;
+    double sum = 0.0;
+    std::vector<std::string> header;
+    for (const std::string& line :
+         tree::lines_of(tree::text_of(tree::root() / "datasets" / folder / "points.csv"))) {
+      std::vector<std::string> cells;
+      std::istringstream text(line);
+      for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+      if (header.empty()) {
+        header = cells;
+        continue;
+      }
+      const auto value = [&](const char* name) {
+        const auto at = std::ranges::find(header, name) - header.begin();
+        return std::stod(cells.at(static_cast<std::size_t>(at)));
+      };
+      if (value("incident_velocity") < least || value("incident_velocity") >= most) continue;
+      count += 1.0;
+      sum += value("restitution");
+    }
+    EXPECT_EQ(std::to_string(static_cast<int>(count)), row.at(2)) << folder << " " << row.at(1);
+    EXPECT_NEAR(sum / count, std::stod(row.at(3)), 6e-4) << folder << " " << row.at(1);
+  }
 }
 
 TEST(Readme, TheManualNamesEveryFolderOfTheSource) {
