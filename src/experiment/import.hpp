@@ -107,6 +107,7 @@ enum class ImportRemark {
   bounces_suspected,       ///< `names`: places where a bounce may be missing
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
+  shared_values,           ///< the same, and no fit can know it
   mean_of_bounces,         ///< e is assumed to be the same at all bounces of a point
   impacts_skipped,         ///< tracks: `count` impacts without a long enough flight on both sides
   axis_points_down,        ///< tracks: heights are measured downward

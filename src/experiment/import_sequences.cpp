@@ -230,7 +230,7 @@ ImportedPoints read_tops(const ImportRequest& request, const SphereInAir& sphere
     }
   }
   return sequences.result("two successive heights of one launch",
-                          {ImportRemark::same_point, ImportRemark::shared_bounces});
+                          {ImportRemark::same_point, ImportRemark::shared_values});
 }
 
 ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphere) {
@@ -315,7 +315,7 @@ ImportedPoints read_blocks(const ImportRequest& request, const SphereInAir& sphe
     }
   }
   return sequences.result("two successive blocks of one launch",
-                          {ImportRemark::mean_of_bounces, ImportRemark::shared_bounces});
+                          {ImportRemark::mean_of_bounces, ImportRemark::shared_values});
 }
 
 }  // namespace recoil

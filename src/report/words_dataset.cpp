@@ -275,6 +275,9 @@ std::string note_sentence(const ImportNote& note) {
     case shared_bounces:
       return "successive points of one launch share a measured value; without --time-error a fit "
              "takes their errors as independent";
+    case shared_values:
+      return "successive points of one launch share a measured value; a fit takes their errors as "
+             "independent";
     case mean_of_bounces:
       return "every point is the mean of several bounces, which are taken to have one e";
     case no_source:
