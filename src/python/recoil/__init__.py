@@ -255,6 +255,7 @@ def pair(
     # made by ./run docs: arguments of pair
     units: Optional[Mapping[str, str]] = None,
     columns: Optional[Mapping[str, str]] = None,
+    decimal_comma: bool = False,
     positive: str = "towards",
     height: Quantity = 1,
     height_range: Quantity = 1.5,
