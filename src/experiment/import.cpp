@@ -228,8 +228,7 @@ void require_possible(const ImportRequest& request, ImportedPoints& imported) {
     if (e > most) ++impossible;
   }
   const bool flights =
-      request.format == ImportFormat::heights || request.format == ImportFormat::intervals ||
-      request.format == ImportFormat::track || request.format == ImportFormat::recording;
+      request.format != ImportFormat::csv && request.format != ImportFormat::webplotdigitizer;
   if (!flights && impossible > 0) return;  // refused with its unit later
   if (above.size() > 1 && 2 * above.size() > imported.points.size()) {
     std::string how = "check the columns in --map, their units and the axes";
@@ -249,7 +248,7 @@ void require_possible(const ImportRequest& request, ImportedPoints& imported) {
                                  imported.points.size()),
                      "a ball returns no faster than it came, apart from errors", how);
   }
-  if (impossible == 0) return;
+  if (impossible == 0 || 2 * impossible > imported.points.size()) return;
   ImportNote note{ImportRemark::impossible_left_out};
   std::erase_if(imported.points, [&](const ImportedPoint& point) {
     const double e = point.restitution().value_or(0.0);

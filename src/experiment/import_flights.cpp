@@ -326,8 +326,7 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   const std::string column = time_column(table);
   const double g = flights.gravity();
   const double e_vacuum = back.duration / in.duration;
-  const bool launches_known = table.has("launch") || table.has_replicates();
-  if (e_vacuum > limits::restitution.upper && !launches_known) {
+  if (e_vacuum > limits::restitution.upper) {
     table.fail(back.row, column,
                fmt::format("restitution = {:.3g}: a flight of {:g} s after one of {:g} s", e_vacuum,
                            back.duration, in.duration),
@@ -343,8 +342,7 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   if (const auto air = flights.in_air(launch.series, launch.diameter)) {
     v = air->return_speed(air->launch_for_duration(in.duration));
     e = air->launch_for_duration(back.duration) / v;
-    if (e_vacuum <= limits::restitution.upper)
-      flights.note_drag(table, back.row, column, *air, v, e, e_vacuum);
+    flights.note_drag(table, back.row, column, *air, v, e, e_vacuum);
   }
   ImportedPoint point = imported_point(launch.series, table.line(back.row), launch.diameter, v, e);
   point.launch = launch.name;
@@ -479,6 +477,8 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   std::size_t gaps = 0;
   ImportNote missed{ImportRemark::first_bounces_missed};
   ImportNote suspected{ImportRemark::bounces_suspected};
+  ImportNote impossible{ImportRemark::impossible_left_out};
+  const bool launches_known = table.has("launch") || table.has_replicates();
   std::map<double, std::vector<ReleaseCheck>> by_height;
   bool unused = false;
   for (const Launch& launch : launches) {
@@ -498,7 +498,13 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
     for (std::size_t i = 0; i + 1 < launch.flights.size(); ++i) {
       const Flight& in = launch.flights[i];
       const Flight& back = launch.flights[i + 1];
-      if (back.bounce == in.bounce + 1.0) {
+      const double ratio = back.duration / in.duration;
+      if (launches_known && back.bounce == in.bounce + 1.0 && ratio > limits::restitution.upper) {
+        // The longer flight holds a missed bounce, so that the next ratio is wrong, too.
+        impossible.names.push_back(
+            fmt::format("line {} (e = {:.3g})", table.line(back.row), ratio));
+        ++i;
+      } else if (back.bounce == in.bounce + 1.0) {
         own.push_back(bounce_between(in, back, launch, table, time, flights));
       } else {
         ++gaps;
@@ -516,6 +522,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
   if (!missed.names.empty()) out.notes.push_back(missed);
   if (!suspected.names.empty()) out.notes.push_back(suspected);
+  if (!impossible.names.empty()) out.notes.push_back(impossible);
   if (!by_height.empty()) {
     out.notes.push_back({ImportRemark::release_heights, {}, 0, mean_checks(by_height)});
   }
