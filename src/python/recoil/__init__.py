@@ -255,6 +255,7 @@ def pair(
     # made by ./run docs: arguments of pair
     units: Optional[Mapping[str, str]] = None,
     columns: Optional[Mapping[str, str]] = None,
+    decimal_comma: bool = False,
     positive: str = "towards",
     height: Quantity = 1,
     height_range: Quantity = 1.5,
@@ -274,8 +275,8 @@ def pair(
 
     ``passages``: a CSV file with one row per passage and the columns ``time``, ``velocity``,
     ``diameter`` and optionally ``tangential_velocity`` and ``series``.
-    ``units={"time": "s", "velocity": "m/s"}``: needed if no datapackage.json next to the file
-    states them. ``columns={"velocity": "LDA1"}``: other column names.
+    ``units={"time": "s", "velocity": "m/s"}``: needed if neither the header nor a datapackage.json
+    next to the file states them. ``columns={"velocity": "LDA1"}``: other column names.
 
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
     is found.
