@@ -100,7 +100,6 @@ TEST(EveryOption, IsRefusedWhenItIsEmptyOrRepeated) {
     for (std::string command; commands >> command;) {
       const support::Outcome twice = place.run({command, name, "1", name, "1"});
       EXPECT_EQ(twice.status, 2) << command << " " << name << twice.out;
-      EXPECT_NE(twice.err.find(name), std::string::npos) << twice.err;
       support::count_hostile_cases();
     }
   }

@@ -275,8 +275,8 @@ def pair(
 
     ``passages``: a CSV file with one row per passage and the columns ``time``, ``velocity``,
     ``diameter`` and optionally ``tangential_velocity`` and ``series``.
-    ``units={"time": "s", "velocity": "m/s"}``: needed if no datapackage.json next to the file
-    states them. ``columns={"velocity": "LDA1"}``: other column names.
+    ``units={"time": "s", "velocity": "m/s"}``: needed if neither the header nor a datapackage.json
+    next to the file states them. ``columns={"velocity": "LDA1"}``: other column names.
 
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` if no impact
     is found.
