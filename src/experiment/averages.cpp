@@ -77,7 +77,8 @@ std::vector<std::size_t> cuts(std::span<const Arrival> sorted, std::size_t per_b
     const double gap = span_of(i - 1, i);
     const double around =
         span_of(i - std::min(i, near), i - 1) + span_of(i, std::min(i + near, sorted.size()) - 1);
-    if (gap > widest_gap * error && gap > emptiness * around) parts.push_back(i);
+    const bool wide = gap > widest_gap * error && gap > emptiness * around;
+    if (wide && i - parts.back() >= 3) parts.push_back(i);
   }
   parts.push_back(sorted.size());
   std::vector<std::size_t> begins;
