@@ -18,7 +18,7 @@ using import_folder::Place;
 using recoil::ImpactPoint;
 using recoil::ImportFormat;
 
-constexpr double gravity = 9.80665;
+constexpr double standard_gravity = 9.80665;
 
 struct Import {
   ImportFormat format;
@@ -45,7 +45,7 @@ std::vector<ImpactPoint> points_of(const Import& one, bool air) {
 
 /// A ball that falls from 1 m: times of its impacts, the heights of its tops, and its speeds just
 /// before the impacts.
-struct Ball {
+struct SimulatedBall {
   std::vector<double> impacts, tops = {1.0}, speeds;
 };
 
@@ -63,20 +63,20 @@ double drag(double speed) {
 }
 
 /// Steps of the midpoint rule, small compared with each flight.
-Ball simulated(double e, bool air, std::size_t bounces) {
-  Ball ball;
+SimulatedBall simulated(double e, bool air, std::size_t bounces) {
+  SimulatedBall ball;
   double height = 1.0;
   double velocity = 0.0;
   double time = 0.0;
   double scale = 0.45;
   while (ball.impacts.size() < bounces) {
     const double step = scale / 1500.0;
-    const auto slope = [&](double v) { return -gravity - (air ? drag(v) : 0.0); };
+    const auto slope = [&](double v) { return -standard_gravity - (air ? drag(v) : 0.0); };
     const double middle = velocity + 0.5 * step * slope(velocity);
     const double next = velocity + step * slope(middle);
     const double below = height + step * middle;
     if (velocity > 0.0 && next <= 0.0) {
-      ball.tops.push_back(height + 0.5 * velocity * velocity / gravity);
+      ball.tops.push_back(height + 0.5 * velocity * velocity / standard_gravity);
     }
     if (below > 0.0) {
       std::tie(height, velocity, time) = std::tuple(below, next, time + step);
@@ -90,7 +90,7 @@ Ball simulated(double e, bool air, std::size_t bounces) {
     time += s;
     height = 0.0;
     velocity = e * ball.speeds.back();
-    scale = 2.0 * velocity / gravity;
+    scale = 2.0 * velocity / standard_gravity;
     height = 1e-300;
   }
   return ball;
@@ -100,7 +100,7 @@ TEST(Sequences, GiveTheRestitutionInVacuumAndInAir) {
   constexpr double e = 0.85;
   for (const bool air : {false, true}) {
     SCOPED_TRACE(air);
-    const Ball ball = simulated(e, air, 60);
+    const SimulatedBall ball = simulated(e, air, 60);
     const double last = ball.impacts.back() - ball.impacts[58];
     const double total = ball.impacts.back() + last * e / (1.0 - e);
     const double error = air ? 3e-5 : 1e-6;
@@ -217,6 +217,12 @@ TEST(Sequences, AnEmptyCellSplitsALaunchAndNonsenseIsRefused) {
     EXPECT_THAT(import_folder::complaint(request_of(one, false, place)),
                 testing::HasSubstr(place_of_it));
   }
+  // In air such a light ball comes to rest earlier, whatever its e.
+  const Place place;
+  EXPECT_THAT(
+      import_folder::complaint(request_of(
+          {ImportFormat::rest, "drop_height=h:m,rest_time=T:s", "h,T\n2,30\n"}, true, place)),
+      testing::HasSubstr("input.csv:2:3:"));
 }
 
 }  // namespace
