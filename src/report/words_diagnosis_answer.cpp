@@ -58,10 +58,13 @@ std::string parameters_words(const CandidateResult& candidate) {
 std::string where_words(const Diagnosis& d) {
   const MisfitCell* const worst = worst_cell(d);
   if (worst == nullptr) return "";
+  const std::string slowest = fmt::format("{:.3g}", worst->slowest);
+  const std::string fastest = fmt::format("{:.3g}", worst->fastest);
   return fmt::format(
-      "The misfit is largest for {} at {:.3g} to {:.3g} m/s, where the e of the model is too {} by "
-      "{:.2g}, {:.2g} standard errors",
-      diameter_words(worst->diameter), worst->slowest, worst->fastest,
+      "The misfit is largest for {} at {} m/s, where the e of the model is too {} by {:.2g}, "
+      "{:.2g} standard errors",
+      diameter_words(worst->diameter),
+      slowest == fastest ? slowest : fmt::format("{} to {}", slowest, fastest),
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
       std::abs(worst->standardised));
 }
