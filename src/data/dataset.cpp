@@ -409,17 +409,16 @@ class PointReader {
 
   /// Repeated drops with one setting may give the same reading; others are remarked.
   void remark_repeated() {
-    std::vector<const ImpactPoint*> sorted;
-    for (const ImpactPoint& point : dataset_.points) {
-      if (point.setting.empty()) sorted.push_back(&point);
+    using Reading = std::tuple<double, double, double, std::size_t>;
+    std::vector<std::pair<Reading, int>> sorted;
+    for (const ImpactPoint& p : dataset_.points) {
+      if (!p.setting.empty()) continue;
+      sorted.push_back({{p.incident_velocity, p.restitution, p.diameter, p.series}, p.line});
     }
-    const auto reading = [](const ImpactPoint* p) {
-      return std::tuple(p->series, p->diameter, p->incident_velocity, p->restitution);
-    };
-    std::ranges::stable_sort(sorted, {}, reading);
+    std::ranges::sort(sorted);
     std::vector<int> lines;
     for (std::size_t i = 1; i < sorted.size(); ++i) {
-      if (reading(sorted[i]) == reading(sorted[i - 1])) lines.push_back(sorted[i]->line);
+      if (sorted[i].first == sorted[i - 1].first) lines.push_back(sorted[i].second);
     }
     std::ranges::sort(lines);
     for (const int line : lines) add(PointRemark::repeated, line);

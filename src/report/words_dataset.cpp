@@ -20,11 +20,15 @@ std::string release_words(const ReleaseCheck& check) {
 }
 
 std::string air_sentence(const AirShare& air) {
+  const auto share = [](double part, double velocity) {
+    return fmt::format("{:.2g} % at {:.3g} m/s", 100.0 * part, velocity);
+  };
+  const std::string slow = share(air.slow_share, air.slow);
+  const std::string fast = share(air.fast_share, air.fast);
   return fmt::format(
-      "the effect of air drag ({:g} Pa, {:g} K) was removed; it had lowered e by {:.2g} % at "
-      "{:.3g} m/s and by {:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
-      air.pressure, air.temperature, 100.0 * air.slow_share, air.slow, 100.0 * air.fast_share,
-      air.fast);
+      "the effect of air drag ({:g} Pa, {:g} K) was removed; it had lowered e by {} "
+      "(--ambient-pressure 0 for vacuum)",
+      air.pressure, air.temperature, slow == fast ? slow : slow + " and by " + fast);
 }
 
 }  // namespace
