@@ -63,6 +63,22 @@ def energy(model):
     return drawn(axes)
 
 
+def table_tennis():
+    """The measured ball: e of every impact, and the mean with its interval for each surface."""
+    axes = plt.figure(figsize=(6, 3.6)).add_subplot()
+    for number, surface in enumerate(("table", "floor", "racket")):
+        data = recoil.load_dataset(root / f"datasets/table-tennis-{surface}")
+        points = data.to_pandas()
+        mean = recoil.fit(data, replicates=0).restitution_summary[0]
+        lower, upper = mean.interval
+        axes.plot(points["incident_velocity"], points["restitution"], "osD"[number], markersize=4,
+                  color=f"C{number}", label=f"{surface}: e = {mean.value:.3f} ± {(upper - lower) / 2:.3f}")
+        axes.axhspan(lower, upper, color=f"C{number}", alpha=0.2, linewidth=0)
+    axes.set(xlabel="incident velocity V [m/s]", ylabel="restitution e", ylim=(0.2, 1.0))
+    axes.legend(loc="lower right")
+    return drawn(axes)
+
+
 quartz, silicon, molybdenum = map(fit, ("dahneke1975-quartz", "wall1990-silicon",
                                         "wall1990-molybdenum"))
 steel = fit("li1999-sst65-silicon").predict(root / "datasets/li1999-sst65-silicon/sizes.csv")
@@ -77,6 +93,7 @@ pictures = {
     docs / "pictures/mixture.svg": steel.svg("mixture-average-1"),
     docs / "pictures/diagnosis.svg": molybdenum.diagnose().svg("before-after-0"),
     docs / "pictures/tutorial.svg": tutorial().svg("overview"),
+    docs / "pictures/table-tennis.svg": table_tennis(),
 }
 for file, picture in pictures.items():
     file.parent.mkdir(parents=True, exist_ok=True)
