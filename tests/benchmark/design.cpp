@@ -174,7 +174,7 @@ void write_peer_case(const std::filesystem::path& folder, int velocities, bool s
   write_whole_file(folder / "datapackage.json",
                    datapackage_json(state_sd ? field_json("restitution_sd", false) : ""),
                    Replacing::data);
-  write_whole_file(folder / "fit.toml", fit_toml());
+  write_whole_file(folder / "fit.toml", fit_toml(), Replacing::data);
   write_whole_file(folder / "constants.json",
                    fmt::format("{{\"density\": {}, \"stiffness\": {}, \"reference_diameter\": {}, "
                                "\"start\": {{\"C_H\": {}, \"C_A\": {}, \"f0\": {}}}}}\n",
@@ -227,7 +227,7 @@ void write_captures(const std::filesystem::path& rows, const std::filesystem::pa
   for (const auto& [folder, points] : {std::pair(rows, single), std::pair(means, counted)}) {
     write_whole_file(folder / "points.csv", points, Replacing::data);
     write_whole_file(folder / "datapackage.json", package, Replacing::data);
-    write_whole_file(folder / "fit.toml", fit);
+    write_whole_file(folder / "fit.toml", fit, Replacing::data);
   }
 }
 

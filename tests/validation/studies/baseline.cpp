@@ -65,7 +65,7 @@ FitResult fit_with(const fs::path& written, const std::vector<std::string>& mech
   if (text.find(model) == std::string::npos) text.insert(text.find("[parameters]"), model + "\n");
   text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
   const fs::path changed = fs::path(written).replace_extension(".with.toml");
-  write_whole_file(changed, text);
+  write_whole_file(changed, text, Replacing::data);
   try {
     const FitInputs inputs = load_inputs(changed);
     return fit(make_model(inputs.spec, inputs.datasets), gather(inputs.datasets, inputs.spec));

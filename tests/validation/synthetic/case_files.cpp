@@ -152,7 +152,7 @@ std::filesystem::path write_case(const Case& made, const std::filesystem::path& 
   write_whole_file(folder / name / "datapackage.json", package_text(made, name), Replacing::data);
   write_whole_file(folder / name / "points.csv", points_text(made), Replacing::data);
   const std::filesystem::path fit = folder / (name + ".toml");
-  write_whole_file(fit, fit_text(made, name));
+  write_whole_file(fit, fit_text(made, name), Replacing::data);
   return fit;
 }
 
