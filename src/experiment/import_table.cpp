@@ -457,14 +457,23 @@ void ImportTable::read_header() {
   for (std::size_t i = 0; i < header_.size(); ++i) header_[i].text = std::to_string(i + 1);
 }
 
+/// Quantities of which one tells the other.
+constexpr std::pair<std::string_view, std::string_view> alternatives[] = {
+    {"restitution", "rebound_velocity"},
+    {"interval", "time"},
+    {"time", "frame"},
+    {"height", "pixel"}};
+
 /// Assigns columns that have the name of a quantity, or another name of it.
 void ImportTable::find_columns_by_name() {
   const std::vector<std::string> header = header_names();
   std::vector<std::string> units;
   for (const CsvField& cell : units_) units.push_back(without_brackets(cell.text));
   for (const ImportQuantity& quantity : known_) {
-    const bool known_otherwise = (quantity.name == "restitution" && has("rebound_velocity")) ||
-                                 (quantity.name == "rebound_velocity" && has("restitution"));
+    const bool known_otherwise = std::ranges::any_of(alternatives, [&](const auto& pair) {
+      return (quantity.name == pair.first && has(std::string(pair.second))) ||
+             (quantity.name == pair.second && has(std::string(pair.first)));
+    });
     if (has(quantity.name)) continue;
     std::vector<std::size_t> at = columns_of(quantity.name, quantity.dimension, header, units);
     if (at.empty()) continue;

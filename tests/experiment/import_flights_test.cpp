@@ -206,10 +206,13 @@ TEST(Intervals, LaunchesInColumnsAreRefusedWithTheMapThatReadsThem) {
     request.map = {"interval=T 1+T 2+T 3:ms"};
     const std::string said = complaint(request);
     const std::string before = "--map ";
-    const std::size_t at = said.find(before + "'");
+    const std::size_t at = said.find(before);
     ASSERT_NE(at, std::string::npos) << said;
-    const std::size_t first = at + before.size() + 1;
-    request.map = {said.substr(first, said.find('\'', first) - first)};
+    const std::size_t quoted = at + before.size();
+    const bool in_quotes = said[quoted] == '\'';  // where the shell needs them
+    const std::size_t first = in_quotes ? quoted + 1 : quoted;
+    const std::size_t end = in_quotes ? said.find('\'', first) : said.find_first_of(" ;,", first);
+    request.map = {said.substr(first, end - first)};
     request.transpose = true;
     const Dataset made = recoil::import_points(request).dataset;
     ASSERT_EQ(made.points.size(), 6U);

@@ -217,12 +217,6 @@ TEST(Sequences, AnEmptyCellSplitsALaunchAndNonsenseIsRefused) {
     EXPECT_THAT(import_folder::complaint(request_of(one, false, place)),
                 testing::HasSubstr(place_of_it));
   }
-  // In air such a light ball comes to rest earlier, whatever its e.
-  const Place place;
-  EXPECT_THAT(
-      import_folder::complaint(request_of(
-          {ImportFormat::rest, "drop_height=h:m,rest_time=T:s", "h,T\n2,30\n"}, true, place)),
-      testing::HasSubstr("input.csv:2:3:"));
 }
 
 }  // namespace

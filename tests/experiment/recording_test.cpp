@@ -132,16 +132,6 @@ TEST(Recording, TheStatedErrorsHoldTheTruth) {
   }
 }
 
-// 200 recordings take some ten seconds: recoil's build/release/tests/experiment/import_test
-// --gtest_also_run_disabled_tests --gtest_filter='*Recordings'
-TEST(Recording, DISABLED_TwoHundredRecordings) {
-  for (const bool tone : {false, true}) {
-    const Score found = score(100, tone);
-    fmt::print("{}: {} of {} within 1.96 sd, {} with too many points\n", tone ? "tones" : "bursts",
-               found.inside, found.all, found.lost);
-  }
-}
-
 TEST(Recording, WhatIsRefused) {
   const Made made = made_recording(4, true);
   const std::string whole = wav(made.samples, made.rate);
