@@ -104,6 +104,11 @@ double set_ball(const GivenOptions& given, ImportRequest& request) {
 
 void run_bounce(const GivenOptions& given) {
   ImportRequest request = reading_of(given);
+  if (request.format == ImportFormat::csv || request.format == ImportFormat::webplotdigitizer) {
+    throw InputError({}, fmt::format("--format {} holds no bounces", to_string(request.format)),
+                     "bounce reads heights, times, tracks and recordings",
+                     "use recoil import, which prints e, too");
+  }
   const double density = set_ball(given, request);
   const ImportResult result = read_bounces(request, density);
   print_summary(result.dataset, false);
