@@ -48,10 +48,11 @@ LeastSquaresOptions careful_descent() {
   return options;
 }
 
-/// The lowest end of the descents from `starts`; with several, followed to its minimum.
+/// The lowest end of the descents from `starts`, followed to its minimum unless it is `rough`.
 LeastSquaresResult best_descent(const LeastSquaresProblem& problem,
-                                const std::vector<std::vector<double>>& starts) {
-  const LeastSquaresOptions options = starts.size() > 1 ? descent() : last_descent();
+                                const std::vector<std::vector<double>>& starts, bool rough) {
+  const bool twice = !rough && starts.size() > 1;
+  const LeastSquaresOptions options = rough || twice ? descent() : last_descent();
   LeastSquaresResult best;
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
@@ -61,7 +62,7 @@ LeastSquaresResult best_descent(const LeastSquaresProblem& problem,
     if (!run.ended() || !std::isfinite(run.sum_of_squares)) continue;
     if (!best.ended() || run.sum_of_squares < best.sum_of_squares) best = std::move(run);
   }
-  if (starts.size() > 1 && best.ended()) {
+  if (twice && best.ended()) {
     LeastSquaresResult last = minimise(problem, best.theta, last_descent());
     if (last.ended() && last.sum_of_squares <= best.sum_of_squares) best = std::move(last);
   }
@@ -310,7 +311,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
-                      std::shared_ptr<const Discrepancy> discrepancy) {
+                      std::shared_ptr<const Discrepancy> discrepancy, bool rough) {
   // Models are compared under the stated errors of the points and of the constants.
   Weights stated = weights;
   stated.noise.constants_weight = 1.0;
@@ -326,7 +327,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data, cons
       starts.push_back(std::move(start));
     }
   }
-  LeastSquaresResult best = best_descent(problem, starts);
+  LeastSquaresResult best = best_descent(problem, starts, rough);
   Refit refit;
   refit.discrepancy = std::move(discrepancy);
   if (!best.ended() || !std::isfinite(best.sum_of_squares)) return refit;
