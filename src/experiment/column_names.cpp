@@ -16,7 +16,7 @@ struct OtherName {
 /// Names in tables of others, also of the passages of `recoil pair`. Those of instruments: AT and
 /// LDA1 to LDA4 are in the text files of Dantec's BSA Flow Software (first line DXEX), those with
 /// Ch. in TSI's FlowSizer.
-constexpr OtherName others[] = {
+constexpr OtherName other_names[] = {
     {"incident_velocity", "v"},
     {"incident_velocity", "vi"},
     {"incident_velocity", "vin"},
@@ -85,7 +85,7 @@ std::vector<std::size_t> columns_of(const std::string& quantity, Dimension dimen
     } else if (word == plain_word(quantity) ||
                header.substr(0, header.find_first_of(" [(")) == quantity) {
       with_unit.push_back(i);
-    } else if (std::ranges::any_of(others, [&](const OtherName& known) {
+    } else if (std::ranges::any_of(other_names, [&](const OtherName& known) {
                  return known.quantity == quantity && known.name == word;
                })) {
       std::string unit = unit_in_brackets(header);

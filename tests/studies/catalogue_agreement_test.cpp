@@ -54,7 +54,7 @@ TEST_P(Agreement, TheCatalogueTakesTheEffectUp) {
               "mechanisms = [\"" + std::string(p.effect) + "\"]\n");
   const std::string parameters = "[parameters]\n";
   text.insert(text.find(parameters) + parameters.size(), p.variant);
-  recoil::write_whole_file(fit, text);
+  recoil::write_whole_file(fit, text, recoil::Replacing::data);
   const support::Outcome run =
       support::run_recoil({"fit", fit.string(), "--replicates", "0", "--threads", "1", "--out",
                            (scratch.path() / "out").string()},

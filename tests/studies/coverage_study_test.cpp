@@ -111,7 +111,7 @@ TEST_F(Files, AStudyComesBackFromItsJson) {
   study.rows.front().relative_width = 0.25;
   study.rows.front().actual_error = 0.06;
   study.exact_materials = false;
-  write_whole_file(file_, study_json(study));
+  write_whole_file(file_, study_json(study), Replacing::data);
   const CoverageStudy back = read_coverage_study(file_);
   EXPECT_EQ(study_json(back), study_json(study));
   EXPECT_EQ(back.designs.front().truth, TruthOrigin::recipe);
@@ -127,7 +127,7 @@ TEST_F(Files, AStudyComesBackFromItsJson) {
 
 TEST_F(Files, WhatIsNoStudyIsRefused) {
   for (const char* text : {"", "{}", "[1]", R"({"study": "a", "command": "b", "key": "c"})"}) {
-    write_whole_file(file_, text);
+    write_whole_file(file_, text, Replacing::data);
     EXPECT_THROW(read_coverage_study(file_), InputError) << text;
   }
 }

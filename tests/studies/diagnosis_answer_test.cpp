@@ -52,7 +52,8 @@ TEST(KeptAnswer, IsFoundByItsOrderOnly) {
   made.taken = {{4.9e-6, 10.0, 40, {"ambient_pressure", 1.0}}};
   made.nearest_rival = {"crack_rate", std::numeric_limits<double>::infinity()};
   const std::string text = recoil::json_text(recoil::as_json(made, recoil::NonFinite::word));
-  recoil::write_whole_file(scratch.path() / (neutral_name(made.order) + ".json"), text);
+  recoil::write_whole_file(scratch.path() / (neutral_name(made.order) + ".json"), text,
+                           recoil::Replacing::data);
   const std::optional<Answered> found = kept_answer(made.order, scratch.path());
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(recoil::json_text(recoil::as_json(*found, recoil::NonFinite::word)), text);

@@ -127,12 +127,12 @@ TEST(HiddenEffectsTally, ComesBackFromItsJson) {
   tally.stamp = {"hidden-effects", "recoil_study hidden-effects", "0123"};
   const std::filesystem::path file =
       testing::TempDir() + "recoil-tally-" + std::to_string(getpid()) + ".json";
-  recoil::write_whole_file(file, recoil::study_json(tally));
+  recoil::write_whole_file(file, recoil::study_json(tally), recoil::Replacing::data);
   const auto read = [&] {
     return recoil::read_study<StudyTally>(file, "study of hidden effects", "bars");
   };
   EXPECT_EQ(recoil::study_json(read()), recoil::study_json(tally));
-  recoil::write_whole_file(file, R"({"study": "hidden-effects"})");
+  recoil::write_whole_file(file, R"({"study": "hidden-effects"})", recoil::Replacing::data);
   EXPECT_THROW(read(), recoil::InputError);
   std::filesystem::remove(file);
 }

@@ -29,7 +29,7 @@ class Tree : public testing::Test {
   Tree& operator=(const Tree&) = delete;
 
   void write(const fs::path& file, const std::string& text) const {
-    write_whole_file(root_ / file, text);
+    write_whole_file(root_ / file, text, Replacing::data);
   }
   std::string key() const { return study_key(root_, "coverage-grid fits/a.toml"); }
   std::string diagnosis_key() const { return study_key(root_, "hidden-effects"); }
