@@ -311,7 +311,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
-                      std::shared_ptr<const Discrepancy> discrepancy, bool rough) {
+                      std::shared_ptr<const Discrepancy> discrepancy) {
   // Models are compared under the stated errors of the points and of the constants.
   Weights stated = weights;
   stated.noise.constants_weight = 1.0;
@@ -327,7 +327,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data, cons
       starts.push_back(std::move(start));
     }
   }
-  LeastSquaresResult best = best_descent(problem, starts, rough);
+  LeastSquaresResult best = best_descent(problem, starts, candidate.added.size() > 1);
   Refit refit;
   refit.discrepancy = std::move(discrepancy);
   if (!best.ended() || !std::isfinite(best.sum_of_squares)) return refit;
