@@ -405,7 +405,7 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQ
       known_(known),
       field_units_(units),
       rows_(import_rows(request, notes_)) {
-  read_header();
+  read_header(request.transpose);
   for (const CsvRow& row : rows_) require_width(row, header_.size(), file_);
   for (const std::string& entry : split_lists(request.map)) read_map(entry);
   find_columns_by_name();
@@ -427,7 +427,8 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQ
 }
 
 /// Removes the header from the rows, and titles of one cell above it.
-void ImportTable::read_header() {
+/// @param transposed the names that stood above columns are now labels of rows, and no header
+void ImportTable::read_header(bool transposed) {
   const auto filled = [](const CsvRow& row) {
     return std::ranges::count_if(row, [](const CsvField& c) { return !c.text.empty(); });
   };
@@ -439,9 +440,10 @@ void ImportTable::read_header() {
   }
   header_ = rows_.front();
   for (CsvField& cell : header_) cell.text = trimmed(with_plain_blanks(cell.text));
-  named_ = !std::ranges::all_of(header_, [&](const CsvField& cell) {
-    return cell.text.empty() || parse_number(cell.text, format_);
-  });
+  const bool labelled = transposed && header_.size() > 1;
+  named_ = !std::ranges::all_of(
+      header_.begin() + (labelled ? 1 : 0), header_.end(),
+      [&](const CsvField& cell) { return cell.text.empty() || parse_number(cell.text, format_); });
   if (named_) {
     rows_.erase(rows_.begin());
     const auto is_unit = [](const CsvField& cell) {

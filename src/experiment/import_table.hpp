@@ -163,7 +163,7 @@ class ImportTable {
     std::optional<double> constant;  ///< in SI, instead of columns
   };
 
-  void read_header();
+  void read_header(bool transposed);
   void read_map(const std::string& entry);
   void find_columns_by_name();
   bool is_used(std::size_t column) const;

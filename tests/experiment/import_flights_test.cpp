@@ -211,7 +211,7 @@ TEST(Intervals, LaunchesInColumnsAreRefusedWithTheMapThatReadsThem) {
     const std::size_t quoted = at + before.size();
     const bool in_quotes = said[quoted] == '\'';  // where the shell needs them
     const std::size_t first = in_quotes ? quoted + 1 : quoted;
-    const std::size_t end = in_quotes ? said.find('\'', first) : said.find_first_of(" ;,", first);
+    const std::size_t end = in_quotes ? said.find('\'', first) : said.find_first_of(" ;)", first);
     request.map = {said.substr(first, end - first)};
     request.transpose = true;
     const Dataset made = recoil::import_points(request).dataset;
