@@ -136,8 +136,9 @@ class Dataset:
     """
 
     def __init__(self, folder: PathLike) -> None:
-        place = Path(path_of("folder", folder))
-        self._data = _recoil.load_dataset(place)
+        named_folder = path_of("folder", folder)
+        self._data = _recoil.load_dataset(named_folder)
+        place = Path(named_folder)
         package = (place / "datapackage.json").read_text(encoding="utf-8-sig")
         self._package: dict[str, Any] = json.loads(package)
         self._csv = (place / self._package["resources"][0]["path"]).read_text(encoding="utf-8-sig")
