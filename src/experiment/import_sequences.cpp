@@ -20,7 +20,7 @@ constexpr double most_for_rest = 0.9995;    // e of a ball that comes to rest in
 /// Flights of one sphere, in air or in vacuum.
 class Bouncing {
  public:
-  Bouncing(std::optional<AirFlight> air, double gravity) : air_(std::move(air)), g_(gravity) {}
+  Bouncing(std::optional<AirFlight> air, double gravity) : air_(air), g_(gravity) {}
 
   /// A fall from rest.
   AirFlight::Part fall(double height) const {
