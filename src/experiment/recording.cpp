@@ -122,9 +122,10 @@ Instant instant_in(const std::vector<double>& squares, std::size_t width, double
   constexpr std::array rises = {5e-5, 2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3};  // [s]
   constexpr std::array decays = {2e-3, 5e-3, 2e-2};                       // [s]
   constexpr std::array powers = {0.5, 1.0, 2.0, 4.0, 8.0};                // of the mean power
-  const auto half = static_cast<std::ptrdiff_t>(squares.size() / 2);
-  const double power = std::accumulate(squares.begin() + half, squares.end(), 0.0) /
-                       static_cast<double>(squares.size() - squares.size() / 2);
+  const std::ptrdiff_t half = std::ssize(squares) / 2;
+  const std::ptrdiff_t count = std::ssize(squares) - half;
+  const double power =
+      std::accumulate(squares.begin() + half, squares.end(), 0.0) / static_cast<double>(count);
   std::vector<std::vector<double>> shapes;  // of the variance, by samples after the instant
   for (const double rise : rises) {
     for (const double decay : decays) {
