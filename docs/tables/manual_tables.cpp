@@ -313,7 +313,7 @@ const std::vector<MadePart>& parts() {
       {"commands for fits",
        [](const Program& program) {
          return commands_table(
-             program, {"fit", "diagnose", "simulate", "report", "compare", "predict", "export"});
+             program, {"fit", "diagnose", "simulate", "report", "figure", "compare", "predict", "export"});
        }},
       {"other commands",
        [](const Program& program) {

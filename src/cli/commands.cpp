@@ -41,6 +41,7 @@ void add_commands(Program& program) {
   add_bounce(program);
   add_materials(program);
   add_predict(program);
+  add_figure(program);
   add_export(program);
   add_compare(program);
   add_report(program);

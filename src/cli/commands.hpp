@@ -28,6 +28,7 @@ void add_bounce(Program& program);
 void add_materials(Program& program);
 void add_predict(Program& program);
 void add_export(Program& program);
+void add_figure(Program& program);
 void add_compare(Program& program);
 void add_report(Program& program);
 void add_pair(Program& program);

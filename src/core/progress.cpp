@@ -10,6 +10,7 @@
 
 namespace recoil {
 namespace {
+thread_local bool silent_here = false;
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 
 /// True if standard error is a terminal that can redraw a line.
@@ -19,10 +20,15 @@ bool can_redraw() {
 }
 }  // namespace
 
+Progress::Silence::Silence(bool silent) : before_(silent_here) { silent_here |= silent; }
+
+Progress::Silence::~Silence() { silent_here = before_; }
+
 Progress::Progress(std::string label, std::size_t total, Pace pace)
     : label_(std::move(label)),
       total_(total),
-      terminal_(can_redraw()),
+      silent_(silent_here),
+      terminal_(!silent_ && can_redraw()),
       pace_(pace),
       start_(std::chrono::steady_clock::now()),
       due_(terminal_ ? start_ : start_ + pace_.first) {}
@@ -32,6 +38,7 @@ Progress::~Progress() {
 }
 
 void Progress::advance(std::size_t steps) {
+  if (silent_) return;
   const std::size_t done = done_ += steps;
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return;  // another thread is drawing; the next step will catch up

@@ -13,6 +13,18 @@ namespace recoil {
 /// `Pace::first` and then one per `Pace::next`. `advance` may be called from any thread.
 class Progress {
  public:
+  /// Shows no progress that this thread starts during the lifetime of a `Silence`.
+  class Silence {
+   public:
+    explicit Silence(bool silent = true);
+    ~Silence();
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+
+   private:
+    bool before_;
+  };
+
   struct Pace {
     std::chrono::milliseconds first = std::chrono::seconds(10);
     std::chrono::milliseconds next = std::chrono::minutes(1);
@@ -31,6 +43,7 @@ class Progress {
 
   std::string label_;
   std::size_t total_;
+  bool silent_;
   bool terminal_;
   Pace pace_;
   std::atomic<std::size_t> done_{0};

@@ -95,6 +95,14 @@ std::string text_html(std::string_view text) {
         continue;
       }
     }
+    if (i > 0 && text[i - 1] == ')' && rest.front() == 'e') {  // (1.2 +/- 0.3)e-5
+      if (const PowerOfTen found = power_of_ten("1" + std::string(rest)); found.length > 0) {
+        out += fmt::format(" × 10<sup>{}{}</sup>", found.exponent < 0 ? "−" : "",
+                           std::abs(found.exponent));
+        i += found.length - 1;
+        continue;
+      }
+    }
     const bool behind_number =
         i > 1 && text[i - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[i - 2])) != 0;
     const auto* const sign = std::ranges::find_if(behind_numbers, [&](const Replacement& one) {
@@ -153,10 +161,10 @@ bool has_long_cells(const Table& table, std::size_t column) {
 
 /// On a narrow screen each row of a wide table becomes a list, in which every cell has a label: the
 /// heading of its column.
-std::string table_html(const Table& full) {
+std::string table_html(const Table& full, bool labels) {
   constexpr std::size_t widest = 3;  // columns that a narrow screen shows side by side
   const Table table = without_empty_columns(full);
-  const bool stacks = table.has_headings() && table.columns.size() > widest;
+  const bool stacks = labels && table.has_headings() && table.columns.size() > widest;
   const std::string look_of_table =
       fmt::format("{}{}", table.compact ? "compact" : "", stacks ? " stack" : "");
   std::string out =
@@ -227,6 +235,8 @@ std::string figures_html(const std::vector<Figure>& figures) {
 }
 
 struct HtmlBlock {
+  bool labels = true;
+
   std::string operator()(const Paragraph& paragraph) const {
     return fmt::format("<p{}>{}</p>\n", paragraph.lead ? " class=\"summary\"" : "",
                        html_of(paragraph.text));
@@ -236,7 +246,7 @@ struct HtmlBlock {
     for (const Sentence& entry : list.entries) out += fmt::format("<li>{}</li>\n", html_of(entry));
     return out + "</ul>\n";
   }
-  std::string operator()(const Table& table) const { return table_html(table); }
+  std::string operator()(const Table& table) const { return table_html(table, labels); }
   std::string operator()(const Figures& figures) const { return figures_html(figures.figures); }
   std::string operator()(const Banner& banner) const {
     const std::string label = escape_html(banner.label);
@@ -311,10 +321,10 @@ std::string html_of(const Sentence& sentence) {
   return out;
 }
 
-std::string html_of(const Blocks& blocks) {
+std::string html_of(const Blocks& blocks, bool labels) {
   std::string out;
   for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(HtmlBlock{}, block.content());
+    if (!empty(block)) out += std::visit(HtmlBlock{labels}, block.content());
   }
   return out;
 }
@@ -324,7 +334,7 @@ std::string html_of(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     if (empty(section)) continue;
     if (!section.title.empty()) out += fmt::format("<h3>{}</h3>\n", titled(section));
-    out += html_of(section.blocks);
+    out += html_of(section.blocks, false);
   }
   return out;
 }

@@ -15,10 +15,12 @@ std::string escape_html(std::string_view text);
 /// A sentence as inline HTML, with markup for symbols and units.
 std::string html_of(const Sentence& sentence);
 
-/// Blocks as HTML, without the page.
-std::string html_of(const Blocks& blocks);
+/// Blocks as HTML, without the page. `labels`: cells of wide tables have labels, which only the
+/// style sheet of a page hides.
+std::string html_of(const Blocks& blocks, bool labels = true);
 
-/// Sections as HTML, without the page. Titles are headings of the third level.
+/// Sections as HTML for a notebook: without the page and labels. Titles are headings of the third
+/// level.
 std::string html_of(const std::vector<Section>& sections);
 
 /// A complete HTML file. Pictures are drawn.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace recoil {
 namespace {
@@ -40,26 +41,22 @@ std::string digits(double value, int count) {
   return fmt::format("{:.{}f}", value, std::max(0, count - 1 - leading));
 }
 
-std::pair<std::string, std::string> number_with_error(double value, double error) {
-  if (!std::isfinite(value) || !std::isfinite(error) || error <= 0.0) {
-    return {number(value), number(error)};
-  }
-  const double largest = std::max(std::abs(value), error);
-  if (largest < 1e-4 || largest >= 1e6) {
-    const int count =
-        std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
-    return {number(value, count), without_empty_exponent(fmt::format("{:.2g}", error))};
-  }
-  const int decimals = std::clamp(1 - written_exponent(error, 2), 0, 12);
-  return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};
-}
-
 std::string p_value_text(double p) {
   if (!std::isfinite(p)) return "n/a";
   return p < 1e-6 ? "< 1e-6" : number(p, 2);
 }
 
 std::string percent(double fraction) { return fmt::format("{:.4g} %", 100.0 * fraction); }
+
+Notation beside(double value, double error) {
+  const double largest = std::max(std::abs(value), error);
+  const int exponent = largest < 1e-4 || largest >= 1e6 ? written_exponent(largest, 2) : 0;
+  Notation notation = fixed(std::clamp(exponent + 1 - written_exponent(error, 2), 0, 12));
+  if (exponent == 0) return notation;
+  notation.scale = std::pow(10.0, -exponent);
+  notation.suffix = fmt::format("e{}", exponent);
+  return notation;
+}
 
 Notation significant(int count) { return {number, count}; }
 Notation padded(int count) { return {digits, count}; }
@@ -93,9 +90,11 @@ std::string NumberRange::text() const {
 
 Sentence Number::words() const {
   Sentence out;
-  if (error > 0.0) {
-    const auto [written, spread] = number_with_error(value, error);
-    out = say("{} {+/-} {}", written, spread);
+  if (error > 0.0 && std::isfinite(value)) {
+    Notation common = beside(value, error);
+    const std::string exponent = std::exchange(common.suffix, "");
+    out = say("{} {+/-} {}", text_of(value, common), text_of(error, common));
+    if (!exponent.empty()) out = say("({}){}", out, exponent);
   } else {
     out = text_of(value, notation);
   }

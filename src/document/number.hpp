@@ -18,10 +18,6 @@ std::string number(double value, int count = 4);
 /// 1e6 on the same as `number`.
 std::string digits(double value, int count);
 
-/// A value and its standard error. The error has two significant digits, and both have the same
-/// number of decimals: ("0.00312", "0.00021").
-std::pair<std::string, std::string> number_with_error(double value, double error);
-
 /// A p-value: "0.43", "0.0021", "< 1e-6".
 std::string p_value_text(double p);
 
@@ -44,6 +40,10 @@ Notation scientific(int decimals);
 Notation probability();
 Notation in_percent(Notation notation, const std::string& suffix = " %");
 
+/// The notation of an estimate, its standard error and its interval: one exponent, and so many
+/// decimals that the error has two significant digits. @pre both are finite, the error is positive
+Notation beside(double value, double error);
+
 /// `value` in this notation; "n/a" if it is not finite.
 std::string text_of(double value, const Notation& notation);
 
@@ -65,7 +65,7 @@ struct Number {
   std::string unit{};  ///< empty: none, or stated in the heading of the column
   std::optional<std::pair<double, double>> band{};  ///< its interval, in the same notation
 
-  /// "0.00312 +/- 0.00021 s/m", "0.853 [0.840, 0.866]"
+  /// "0.00312 +/- 0.00021 s/m", "(9.30 +/- 0.12)e-5 s/m", "0.853 [0.840, 0.866]"
   Sentence words() const;
   operator Sentence() const { return words(); }
 };

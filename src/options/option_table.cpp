@@ -48,14 +48,13 @@ bool has_word(std::string_view words, std::string_view word) {
 const std::vector<OptionRow>& option_rows() {
   static const std::vector<OptionRow> rows = {
       // arguments
-      {"fit diagnose simulate predict export plan coverage", "FIT", takes::fit_file(), "a fit file",
-       required},
+      {"fit diagnose figure simulate predict export plan coverage", "FIT", takes::fit_file(),
+       "a fit file", required},
       {"report", "FIT", repeated(takes::fit_file()), "fit files (default: fits/*.toml)"},
       {"compare", "FIT.json", repeated(path("FIT.json"), 2),
        "two or more fit.json of the same datasets", required},
-      {"check", "DIR", path("DIR"), "the dataset's folder", required},
-      {"init", "DIR", path("DIR"), "the new folder", required},
-      {"merge", "DIR", path("DIR"), "the folder of the shards", required},
+      {"check init merge", "DIR", path("DIR"),
+       "the folder: of a dataset, of a new one, or of the shards", required},
       {"import bounce", "FILE", repeated(path("FILE")),
        "what to read; - for standard input; several files are launches of one ball", required},
       {"pair", "PASSAGES", path("PASSAGES"),
@@ -105,6 +104,9 @@ const std::vector<OptionRow>& option_rows() {
       {"export", "--stock", nothing(),
        "lammps, yade: write the nearest of the program's own contact models, for many spheres, "
        "instead of the force law (liggghts: always)"},
+      {"figure", "--out", path("FILE"), "the figure: .pdf, .svg or .png", required},
+      {"figure", "--width", quantity(Dimension::length, "mm", 40.0, 400.0),
+       "its width: a column of a journal has 80 to 90 mm", "85"},
       {"report", "--force", nothing(), "write every page again, even if nothing has changed"},
 
       // datasets
@@ -286,18 +288,18 @@ const std::vector<OptionRow>& option_rows() {
        "compute only shard K of N (1/N to N/N) and write it to DIR; recoil merge DIR combines the "
        "shards"},
       {"fit diagnose coverage", "--parts", path("DIR"), ""},
-      {"fit report predict export coverage", "--replicates",
+      {"fit figure report predict export coverage", "--replicates",
        takes::or_word(whole(0, 1000000), "auto"),
        "number of bootstrap replicates; 0: none; auto: until the intervals are precise enough "
        "(default: from the fit file)",
        "", "fit coverage", "replicates"},
       {"fit", "--scheme", one_of(all_names<Scheme>()),
        "resampling scheme of the bootstrap (default: from the fit file)", "", "fit", "scheme"},
-      {"fit diagnose report predict export coverage", "--seed", whole(0, 0x1p63),
+      {"fit diagnose figure report predict export coverage", "--seed", whole(0, 0x1p63),
        "seed of the random numbers, which fixes every digit of the output (default: from the fit "
        "file)",
        "", "fit coverage diagnose", "seed"},
-      {"fit diagnose report predict export coverage merge", "--threads", whole(0, 4096),
+      {"fit diagnose figure report predict export coverage merge", "--threads", whole(0, 4096),
        "threads to use; 0: all cores", "0", "fit coverage diagnose", "threads"},
       {"fit", "--solver", one_of(all_names<Solver>()),
        "how impacts are integrated: fast, or with CVODES as a reference", "fast", "fit", "solver"},

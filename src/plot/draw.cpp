@@ -16,6 +16,7 @@ constexpr double mark_radius = 4.875;  // of a mark of size 1 [px]
 constexpr double tick_length = 5.0;    // [px]
 constexpr double key_row = 20.0;       // height [px]
 constexpr double sample_width = 22.0;  // of a layer in the key [px]
+constexpr double mark_width = 12.0;    // of a layer of marks in the key [px]
 constexpr double colour_bar = 14.0;    // width [px]
 constexpr int usual_ticks = 5;
 
@@ -193,9 +194,16 @@ std::vector<Tick> ticks_of(const Axis& axis) {
   }
   const double step = round_step(range, usual_ticks);
   if (!(step > 0.0)) return ticks;
+  int decimals = 0;
+  for (double unit = step; decimals < 6 && std::abs(unit - std::round(unit)) > 1e-6; unit *= 10.0) {
+    ++decimals;
+  }
   for (double k = std::ceil(range.lower / step - 1e-9); k * step <= range.upper + 1e-9 * step;
        k += 1.0) {
-    ticks.push_back({k * step, fmt::format("{:.6g}", k == 0.0 ? 0.0 : k * step)});
+    const bool plain = step >= 1e-4 && std::abs(k * step) < 1e6;  // the same decimals
+    ticks.push_back({k * step, k == 0.0 ? "0"
+                               : plain  ? fmt::format("{:.{}f}", k * step, decimals)
+                                        : fmt::format("{:.6g}", k * step)});
   }
   return ticks;
 }
@@ -230,6 +238,10 @@ struct Scale {
 struct KeyEntry {
   const Layer* layer;
   double width;
+
+  double sample() const {
+    return std::holds_alternative<Points>(*layer) ? mark_width : sample_width;
+  }
 };
 
 class PlotWriter {
@@ -241,7 +253,8 @@ class PlotWriter {
       const bool again = std::ranges::any_of(
           entries_, [&](const KeyEntry& one) { return name_of(*one.layer) == name; });
       if (name.empty() || again || plot.key == KeyPlace::none) continue;
-      entries_.push_back({&layer, sample_width + 8.0 + width_of(name, letter)});
+      entries_.push_back({&layer, 0.0});
+      entries_.back().width = entries_.back().sample() + 8.0 + width_of(name, letter);
     }
     lay_out(picture);
   }
@@ -358,7 +371,7 @@ class PlotWriter {
       for (const KeyEntry& entry : row) {
         out += std::visit([&](const auto& shown) { return sample_svg(shown, x, y - 4.5); },
                           *entry.layer) +
-               text_svg(x + sample_width + 8.0, y, name_of(*entry.layer));
+               text_svg(x + entry.sample() + 8.0, y, name_of(*entry.layer));
         x += entry.width + 18.0;
       }
       y += key_row;
@@ -373,7 +386,7 @@ class PlotWriter {
     const std::string line = fmt::format("M{} {}h{}", px(x), px(y), sample_width);
     if constexpr (std::is_same_v<Kind, Points>) {
       const double r = mark_radius * shown.size;
-      return path_svg(mark_path(shown.marker.mark, middle, y, r),
+      return path_svg(mark_path(shown.marker.mark, x + mark_width / 2.0, y, r),
                       mark_look(shown.marker, r, shown.width));
     } else if constexpr (std::is_same_v<Kind, Line>) {
       const double r = mark_radius * shown.size;
@@ -554,14 +567,17 @@ std::string colour_of(const ColourScale& scale, double value) {
   return colour;
 }
 
-std::string draw_svg(const Picture& picture) {
+std::string draw_svg(const Picture& picture, double width) {
   const std::string title = escape_xml(picture.title);
   std::string out = fmt::format(
-      "<svg id=\"{0}\" viewBox=\"0 0 {1} {2}\" width=\"100%\" role=\"img\" aria-label=\"{3}\" "
+      "<svg id=\"{0}\" viewBox=\"0 0 {1} {2}\" {5} role=\"img\" aria-label=\"{3}\" "
       "xmlns=\"http://www.w3.org/2000/svg\" fill=\"none\" font-size=\"{4:g}\" "
       "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\">\n<title>{3}</title>\n"
       "<path d=\"M0 0H{1}V{2}H0z\" fill=\"#ffffff\"/>\n",
-      picture.name, picture.width, picture.height, title, letter);
+      picture.name, picture.width, picture.height, title, letter,
+      width > 0.0 ? fmt::format("width=\"{:g}mm\" height=\"{:g}mm\"", width,
+                                width * picture.height / picture.width)
+                  : "width=\"100%\"");
   for (std::size_t k = 0; k < picture.plots.size(); ++k) {
     out += PlotWriter(picture.plots[k], picture, k + 1).svg();
   }

@@ -10,7 +10,8 @@ namespace recoil::plot {
 
 /// The picture as an `<svg>` element for an HTML page, with ids that begin with the picture's name,
 /// a view box without a fixed size, role and label. The same picture gives the same bytes.
-std::string draw_svg(const Picture& picture);
+/// @param width of a file for print [mm]; 0: that of the page
+std::string draw_svg(const Picture& picture, double width = 0.0);
 
 /// The colour of a value on a scale [#rrggbb]; values outside have the colour of the nearer end.
 std::string colour_of(const ColourScale& scale, double value);

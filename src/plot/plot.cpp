@@ -150,7 +150,7 @@ std::string csv_of(const Picture& picture) {
   for (const Plot& plot : picture.plots) {
     for (const Layer& layer : plot.layers) {
       std::vector<Column> columns = columns_of(layer, plot);
-      if (columns.empty()) continue;
+      if (columns.empty() || columns[0].values.empty()) continue;
       const auto same = std::ranges::find_if(begun, [&](const auto& one) {
         return one.first.title == columns[0].title && one.first.values == columns[0].values;
       });

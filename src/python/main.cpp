@@ -24,6 +24,7 @@
 #include "core/interrupt.hpp"
 #include "core/numerics.hpp"
 #include "core/program.hpp"
+#include "core/progress.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "data/material_table.hpp"
@@ -102,13 +103,16 @@ struct Released {
 };
 
 /// Runs `work` while other Python threads run, and returns its result. Ctrl-C cancels it, and all
-/// other work of the process, with KeyboardInterrupt.
+/// other work of the process, with KeyboardInterrupt. `progress`: it is shown.
 /// @pre the caller holds the interpreter's lock
 template <class Work>
-auto interruptible(const Work& work) {
+auto interruptible(const Work& work, bool progress = true) {
   constexpr auto poll_interval = std::chrono::milliseconds(50);
   const Busy busy;
-  auto running = std::async(std::launch::async, [&work] { return work(); });
+  auto running = std::async(std::launch::async, [&] {
+    const Progress::Silence silence(!progress);
+    return work();
+  });
   for (;;) {
     {
       const py::gil_scoped_release release;
@@ -130,8 +134,8 @@ auto interruptible(const Work& work) {
 /// `function` as one that is `interruptible`.
 template <class Result, class... Arguments>
 auto cancellable(Result (*function)(Arguments...)) {
-  return [function](Arguments... arguments) {
-    return interruptible([&] { return function(arguments...); });
+  return [function](Arguments... arguments, bool progress) {
+    return interruptible([&] { return function(arguments...); }, progress);
   };
 }
 
@@ -279,6 +283,29 @@ py::tuple simulate_columns(const Valued& valued, const Numbers& velocity,
   py::list columns;
   for (const std::vector<double>& column : many.slopes) columns.append(array_of(column));
   return py::make_tuple(array_of(many.restitution_squared), array_of(many.captured), columns);
+}
+
+/// The band of the curves of e of one diameter [um], from the draws of the bands of fit.json: its
+/// lower and upper ends at every velocity [m/s].
+std::pair<std::vector<double>, std::vector<double>> band_of(const Analysis& analysis,
+                                                            const std::vector<double>& velocity,
+                                                            double diameter_um,
+                                                            const std::string& dataset) {
+  require_within(velocity, units::m, "velocity", "m/s", velocity_limits);
+  require_within({diameter_um}, 1.0, "diameter", "um", diameter_limits_um);
+  const UncertaintyResult& assessed = analysis.uncertainty;
+  RestitutionCurve curve;
+  curve.dataset = choose_dataset(analysis.datasets, dataset);
+  curve.diameter = diameter_um * units::um;
+  curve.velocity = velocity;
+  add_restitution(analysis.fitted.model, analysis.fitted.theta,
+                  {assessed.bootstrap.theta, assessed.options.level, assessed.options.threads},
+                  curve);
+  if (curve.lower.size() == velocity.size()) return {curve.lower, curve.upper};
+  const std::size_t fewest = fewest_replicates(assessed.options.level);
+  throw InputError(
+      {}, fmt::format("{} replicates give no band", assessed.bootstrap.theta.size()), "",
+      fmt::format("fit with replicates={} or more", std::max<std::size_t>(fewest, 199)));
 }
 
 std::string one_impact(const Valued& valued, double velocity, double diameter_um,
@@ -521,9 +548,13 @@ void bind_results(py::module_& module) {
       .def("profiles", &profiles_of)
       .def("posterior", &posterior_of)
       .def("model", &fitted_model)
-      .def("predict", cancellable(&predict_for), py::arg("sizes"), py::arg("options"))
-      .def("diagnose", cancellable(&diagnosis_of), py::arg("options"));
-  module.def("fit", cancellable(&fit_of), py::arg("inputs"), py::arg("options"));
+      .def("band", cancellable(&band_of), py::arg("velocity"), py::arg("diameter_um"),
+           py::arg("dataset"), py::arg("progress") = false)
+      .def("predict", cancellable(&predict_for), py::arg("sizes"), py::arg("options"),
+           py::arg("progress"))
+      .def("diagnose", cancellable(&diagnosis_of), py::arg("options"), py::arg("progress"));
+  module.def("fit", cancellable(&fit_of), py::arg("inputs"), py::arg("options"),
+             py::arg("progress"));
 
   py::class_<Predicted>(module, "Predicted")
       .def_readonly("json", &Predicted::json)
@@ -538,7 +569,7 @@ void bind_results(py::module_& module) {
           py::arg("verbose"), py::call_guard<Released>())
       .def("page", &diagnosis_html, py::call_guard<Released>())
       .def(
-          "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks); },
+          "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks, false); },
           py::call_guard<Released>())
       .def(
           "pictures", [](const Diagnosis& d) { return pictures_of(diagnosis_document(d)); },
@@ -546,7 +577,8 @@ void bind_results(py::module_& module) {
       .def("extended_toml",
            [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });
 
-  module.def("coverage", cancellable(&coverage_of), py::arg("inputs"), py::arg("options"));
+  module.def("coverage", cancellable(&coverage_of), py::arg("inputs"), py::arg("options"),
+             py::arg("progress"));
   module.def("compare", &compared, py::arg("named_texts"), py::call_guard<Released>());
 }
 
@@ -556,7 +588,8 @@ void bind_pairs(py::module_& module) {
       .def_readonly("text", &PairTexts::text)
       .def_readonly("points", &PairTexts::points)
       .def_readonly("impacts", &PairTexts::impacts);
-  module.def("pair", cancellable(&pair_texts), py::arg("file"), py::arg("options"));
+  module.def("pair", cancellable(&pair_texts), py::arg("file"), py::arg("options"),
+             py::arg("progress") = false);
 }
 
 }  // namespace

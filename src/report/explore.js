@@ -424,9 +424,10 @@ window.recoil = (() => {
   // `frame`: left, top, right and foot of the axes in the picture.
   function curvePath(panel, [left, top, right, foot], diameter, values, capture) {
     const [slowest, fastest] = panel.velocities;
+    const [least, most] = panel.restitutions;
     const place = (velocity, e) => {
       const x = left + (right - left) * Math.log(velocity / slowest) / Math.log(fastest / slowest);
-      return x.toFixed(1) + " " + (foot - (foot - top) * Math.min(1, e / panel.top)).toFixed(1);
+      return x.toFixed(1) + " " + (foot - (foot - top) * Math.max(0, Math.min(1, (e - least) / (most - least)))).toFixed(1);
     };
     const velocities = [];
     for (let i = 0; i <= 100; ++i) velocities.push(slowest * Math.pow(fastest / slowest, i / 100));

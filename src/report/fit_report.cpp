@@ -149,9 +149,8 @@ Sentence own_design_words(const Analysis& a, double below) {
 Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
   Figures shown = {panels};
   if (panels.size() != 1) {
-    Sentence caption = say("Points, fit and its {} band.", percent(a.uncertainty.options.level));
-    if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
-    shown = {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
+    shown = {
+        {figure_of(restitution_overview(a, picture_width, picture_height), overview_caption(a))}};
   }
   for (Figure& figure : law_error_figures(a)) shown.figures.push_back(std::move(figure));
   return shown;

@@ -16,10 +16,16 @@ namespace recoil {
 inline constexpr const char* mean_curve_words =
     "The curve is the mean of the rebounds that are seen: it rises again where slow ones are not.";
 
-/// e against V of the whole fit: points and curves in one plot, with one colour and mark for each
-/// diameter or, in a fit of several datasets, for each dataset.
+/// e against V of the whole fit: bands, curves and points in one plot, with one colour and mark for
+/// each diameter or, in a fit of several datasets, for each dataset, with one dash for each diameter.
 /// @param width, height of the picture [px]
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height);
+
+/// What it shows, without the numbers of the fit.
+Sentence overview_caption(const Analysis& analysis);
+
+/// The caption of a publication: bodies, provenance, what is drawn, and the result.
+Sentence figure_caption(const Analysis& analysis);
 
 /// e against V for every diameter: points, fit with its band, two-point calibration and V*. A
 /// figure includes the data for `explore_script` if the script can compute the model.

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/json.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "estimate/model_verdict.hpp"
@@ -17,6 +18,7 @@
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/prediction_report.hpp"
+#include "report/words_fit.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {
@@ -83,7 +85,7 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   shown.heading = "d = " + diameter_label(panel.diameter);
   if (analysis.datasets.size() > 1) shown.heading += ", " + dataset.id;
   shown.x = velocity_axis(axes.velocity);
-  shown.y = restitution_axis(axes.top);
+  shown.y = restitution_axis(axes.restitution);
   shown.key = plot::KeyPlace::below;
   if (panel.capture != nullptr) {
     shown.remark = capture_words(*panel.capture, axes);
@@ -207,7 +209,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel, const p
               {"stiffness", at.stiffness},
               {"separation", at.separation},
               {"velocities", {shown.x.from, shown.x.to}},
-              {"top", shown.y.to},
+              {"restitutions", {shown.y.from, shown.y.to}},
               {"student", nullptr}};
   if (const auto& student = fit.data.noise.student) {
     out["student"] = {{"nu", student->dof}, {"unit", std::sqrt(student->calibration())}};
@@ -479,24 +481,42 @@ Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dat
   return join(words, "; ") + ".";
 }
 
+constexpr std::size_t many_points = 150;
+
+/// The dashes of curves of several sizes beside those of other datasets.
+constexpr std::array<std::string_view, 5> size_dashes = {"", plot::long_dashes, plot::dash_dot,
+                                                         plot::dashes, plot::dots};
+
+/// The sizes of all panels, smallest first; none if there are more than dashes.
+std::vector<double> sizes_told_apart(const std::vector<Panel>& panels) {
+  std::vector<double> sizes;
+  for (const Panel& panel : panels) sizes.push_back(panel.diameter);
+  std::ranges::sort(sizes);
+  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+  if (sizes.size() > size_dashes.size()) sizes.clear();
+  return sizes;
+}
+
 }  // namespace
 
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height) {
   const std::vector<Panel> panels = panels_of(analysis);
-  plot::Range velocity{INFINITY, 0.0};
-  double top = 1.05;
+  plot::Range velocity{INFINITY, 0.0}, restitution{INFINITY, 0.0};
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const Axes axes = axes_of(analysis, panels, k);
     if (!std::isfinite(axes.velocity.lower)) continue;
     velocity.lower = std::min(velocity.lower, axes.velocity.lower);
     velocity.upper = std::max(velocity.upper, axes.velocity.upper);
-    top = std::max(top, axes.top);
+    restitution.lower = std::min(restitution.lower, axes.restitution.lower);
+    restitution.upper = std::max(restitution.upper, axes.restitution.upper);
   }
   plot::Plot shown;
   shown.x = velocity_axis(velocity);
-  shown.y = restitution_axis(top);
+  shown.y = restitution_axis(restitution);
   shown.key = plot::KeyPlace::above;
   const bool by_dataset = analysis.datasets.size() > 1;
+  const std::vector<double> sizes = sizes_told_apart(panels);
+  std::vector<plot::Layer> bands, curves, marks;
   plot::Points captured;
   std::vector<bool> named(analysis.datasets.size(), false);
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -507,27 +527,95 @@ plot::Picture restitution_overview(const Analysis& analysis, int width, int heig
     const bool show = by_dataset ? !named[panel.dataset] : panels.size() <= plot::markers.size();
     named[panel.dataset] = true;
     if (panel.curve != nullptr) {
-      const CurveColumns curve = curve_columns(*panel.curve);
-      if (!by_dataset && !curve.lower.empty()) {
-        shown.layers.push_back(plot::Band{
-            curve.velocity, curve.lower, curve.upper, {std::string(marker.colour), 0.3}});
+      CurveColumns curve = curve_columns(*panel.curve);
+      if (!curve.lower.empty()) {
+        bands.emplace_back(plot::Band{curve.velocity,
+                                      curve.lower,
+                                      curve.upper,
+                                      {std::string(marker.colour), by_dataset ? 0.15 : 0.25}});
       }
-      shown.layers.push_back(plot::Line{curve.velocity, curve.restitution, {marker.colour, 1.6}});
+      for (std::size_t k = 0; k + 1 < curve.restitution.size(); ++k) {
+        if (curve.restitution[k + 1] == 0.0) curve.restitution[k] = NAN;  // the axis shows this
+      }
+      const auto size = std::ranges::find(sizes, panel.diameter);
+      const std::string_view dash =
+          by_dataset && size != sizes.end()
+              ? size_dashes[static_cast<std::size_t>(size - sizes.begin())]
+              : "";
+      curves.emplace_back(
+          plot::Line{curve.velocity, curve.restitution, {marker.colour, 1.6, dash}});
     }
     const PointColumns columns = point_columns(analysis, panel.points);
     plot::Points points{columns.velocity, columns.restitution};
+    if (analysis.fitted.data.noise.sd_stated) points.with_sd(columns.sd);
     points.marker = marker;
+    points.size = analysis.fitted.data.points.size() > many_points ? 0.5 : 0.65;
     if (show) points.name = name;
-    shown.layers.push_back(std::move(points));
+    marks.emplace_back(std::move(points));
     captured.x.insert(captured.x.end(), columns.captured.begin(), columns.captured.end());
   }
   captured.y.assign(captured.x.size(), 0.0);
+  for (std::vector<plot::Layer>* layers : {&bands, &curves, &marks}) {
+    std::ranges::move(*layers, std::back_inserter(shown.layers));
+  }
   if (!captured.x.empty()) shown.layers.push_back(captured_layer(std::move(captured)));
+  for (std::size_t k = 0; by_dataset && k < sizes.size(); ++k) {  // only for the key
+    plot::Line line{{}, {}, {plot::ink, 1.6, size_dashes[k]}};
+    line.name = diameter_label(sizes[k]);
+    shown.layers.push_back(std::move(line));
+  }
   return {.name = "overview",
           .title = "Restitution against incident velocity, " + analysis.spec.id,
           .width = width,
           .height = height,
           .plots = {std::move(shown)}};
+}
+
+Sentence overview_caption(const Analysis& analysis) {
+  const bool bands =
+      std::ranges::any_of(analysis.uncertainty.curves,
+                          [](const RestitutionCurve& curve) { return !curve.lower.empty(); });
+  Sentence text = analysis.fitted.data.noise.sd_stated ? say("Points {+/-} 1 sd, and the fit")
+                                                       : Sentence("Points, and the fit");
+  text += bands ? say(" with its {} bands.", percent(analysis.uncertainty.options.level))
+                : Sentence(".");
+  if (averages_over_sizes(analysis.fitted.model)) text += say(" {}", mean_curve_words);
+  return text;
+}
+
+Sentence figure_caption(const Analysis& analysis) {
+  const FitResult& f = analysis.fitted;
+  constexpr std::size_t most_captures = 4;
+  std::vector<Sentence> pairs, results;
+  for (const Dataset& dataset : analysis.datasets) {
+    pairs.push_back(say("{} on {} ({})", dataset.system.particle.name, dataset.system.surface.name,
+                        to_string(dataset.provenance)));
+  }
+  for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
+    const ParameterSlot& slot = f.model.slots[s];
+    if (!slot.free || slot.is_constant()) continue;
+    const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
+    const std::string_view unit_name = slot.parameter->unit;
+    results.push_back(say(
+        "{} = {}", parameter_words(f.model, s, analysis.datasets),
+        Number{acting_value(f.model, f.theta, s), significant(4),
+               std::isfinite(error) ? error : 0.0, unit_name == "1" ? "" : std::string(unit_name)}
+            .words()));
+  }
+  std::size_t captures = 0;
+  for (const CaptureEstimate& capture : analysis.uncertainty.capture) {
+    if (!capture.found || without_adhesion(analysis, capture.dataset)) continue;
+    if (++captures > most_captures) break;
+    Number value = with_interval(capture.value, capture.interval, padded(3));
+    value.unit = "m/s";
+    results.push_back(say("{} = {}", capture_name(analysis, capture), value.words()));
+  }
+  Sentence text = say("Restitution {e} against incident velocity {V}: {}. ", join(pairs, "; ")) +
+                  overview_caption(analysis);
+  if (std::ranges::any_of(f.data.points, &Observation::censored))
+    text += " Open triangles: captured.";
+  if (!results.empty()) text += say(" {}.", join(results, ", "));
+  return text + say(" recoil {}.", version());
 }
 
 std::vector<Figure> restitution_figures(const Analysis& analysis) {

@@ -146,7 +146,8 @@ Table parameters_table(const Analysis& a) {
     if (!std::isfinite(error)) error = 0.0;
     const bool flat = std::ranges::find(f.flat, s) != f.flat.end();
     const std::string remark = flat ? "no point depends on it" : remark_of(f, s, interval);
-    Cell ends = interval_cell(interval, significant(3));
+    Cell ends = interval_cell(
+        interval, error > 0.0 ? beside(acting_value(f.model, f.theta, s), error) : significant(3));
     if (!remark.empty()) {
       ends = std::holds_alternative<std::monostate>(ends)
                  ? Sentence(remark)

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t most_panels = 24;  // limits the size of a page to about 1 MB
 constexpr std::size_t most_curve_points = 120;
+constexpr double farthest_capture = 5.0;  // slowest point over a capture velocity that is shown
 
 /// Assigns every point to a panel (see `panels_of`).
 void distribute_points(const Analysis& analysis, std::vector<Panel>& panels) {
@@ -61,24 +62,43 @@ std::vector<Panel> panels_of(const Analysis& analysis) {
 }
 
 Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::size_t dataset) {
-  double lower = INFINITY;
-  double upper = 0.0;
   Axes axes;
+  double lower = INFINITY, upper = 0.0;
+  double least = INFINITY, most = 0.0;  // of e
+  bool captured = false;
   for (const Observation& point : analysis.fitted.data.points) {
     if (point.dataset != dataset) continue;
     lower = std::min(lower, point.velocity);
     upper = std::max(upper, point.velocity);
+    captured |= point.censored;
+    if (point.censored || point.counts_only()) continue;
     const double sd = analysis.fitted.data.noise.sd_stated ? point.sd : 0.0;
-    axes.top = std::max(axes.top, std::min(1.5, 1.03 * (point.restitution + sd)));
+    least = std::min(least, point.restitution - sd);
+    most = std::max(most, point.restitution + sd);
   }
   const double slowest = lower;
   for (const Panel& panel : panels) {
     if (panel.dataset != dataset || panel.capture == nullptr) continue;
+    if (panel.capture->value < slowest / farthest_capture) continue;
     const double edge = panel.capture->interval.lower.value_or(panel.capture->value);
-    // The axis extends at most a decade below the slowest point.
-    lower = std::min(lower, std::max(std::min(edge, panel.capture->value), slowest / 10.0));
+    lower =
+        std::min(lower, std::max(std::min(edge, panel.capture->value), slowest / farthest_capture));
   }
-  axes.velocity = {lower / 1.35, upper * 1.25};
+  axes.velocity = {lower / 1.15, upper * 1.25};
+  for (const Panel& panel : panels) {
+    if (panel.dataset != dataset || panel.curve == nullptr) continue;
+    for (std::size_t k = 0; k < panel.curve->restitution.size(); ++k) {
+      if (!axes.velocity.holds(panel.curve->velocity[k])) continue;
+      least = std::min(least, panel.curve->restitution[k]);
+      most = std::max(most, panel.curve->restitution[k]);
+    }
+  }
+  constexpr double lowest_start = 0.35, least_span = 0.05;
+  const double margin = 0.15 * std::max(most - least, least_span);
+  const bool from_zero = captured || !(least > lowest_start) || !std::isfinite(margin);
+  axes.restitution = {
+      from_zero ? 0.0 : least - margin,
+      most > 0.0 ? std::clamp(from_zero ? 1.06 * most : most + margin, 0.1, 1.5) : 1.05};
   return axes;
 }
 
@@ -89,9 +109,9 @@ plot::Axis velocity_axis(plot::Range range) {
   return axis;
 }
 
-plot::Axis restitution_axis(double top) {
+plot::Axis restitution_axis(plot::Range range) {
   plot::Axis axis{"restitution e"};
-  axis.set_range({0.0, top});
+  axis.set_range(range);
   return axis;
 }
 

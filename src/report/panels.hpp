@@ -27,18 +27,18 @@ struct Panel {
 /// with its own series. `analysis` must outlive the panels.
 std::vector<Panel> panels_of(const Analysis& analysis);
 
-/// The common axes of all panels of a dataset.
+/// The common axes of all panels of a dataset. That of e begins at 0 if captures or the fall
+/// towards a capture velocity are shown, and otherwise fits the points.
 struct Axes {
-  plot::Range velocity;  ///< [m/s]
-  double top = 1.05;     ///< upper end of the axis of e
+  plot::Range velocity;     ///< [m/s]
+  plot::Range restitution;  ///< [1]
 };
 Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::size_t dataset);
 
 /// A logarithmic axis of incident velocities.
 plot::Axis velocity_axis(plot::Range range);
 
-/// An axis of e from 0 to `top`.
-plot::Axis restitution_axis(double top);
+plot::Axis restitution_axis(plot::Range range);
 
 /// The values of a curve. Flat parts are thinned.
 struct CurveColumns {

@@ -202,7 +202,7 @@ Figure mixture_figure(const Analysis& analysis, const PolydispersePrediction& mi
   shown.heading = "Weighted averages over the sizes";
   if (analysis.datasets.size() > 1) shown.remark = analysis.datasets[mixture.dataset].id;
   shown.x = velocity_axis({mixture.velocity.front(), mixture.velocity.back()});
-  shown.y = restitution_axis(1.05);
+  shown.y = restitution_axis({0.0, 1.05});
   shown.key = plot::KeyPlace::below;
   for (std::size_t k = 0; k < capture_conventions.size(); ++k) {
     shown.layers.push_back(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/numerics.hpp"
 #include "core/parallel.hpp"
@@ -13,20 +12,22 @@
 namespace recoil {
 namespace {
 
-constexpr int even_velocities = 48;     // log-spaced over the range
-constexpr int capture_velocities = 10;  // where e rises like sqrt(V - V*)
+constexpr int even_velocities = 48;  // log-spaced over the range
+constexpr int rising_velocities = 56;
+constexpr int captured_velocities = 16;
 constexpr std::size_t most_band_replicates = 999;
 
-std::vector<double> velocity_grid(double slowest, double fastest, double capture) {
-  const double first = capture > 0.0 ? std::min(slowest, 0.9 * capture) : 0.8 * slowest;
-  const double last = 1.2 * fastest;
-  const std::vector<double> even = log_spaced(first, last, even_velocities);
-  std::set<double> grid(even.begin(), even.end());
-  for (int i = 0; capture > 0.0 && i < capture_velocities; ++i) {
-    const double v = capture * (1.0 + 0.2 * std::pow(i / (capture_velocities - 1.0), 2) + 1e-6);
-    if (v > first && v < last) grid.insert(v);
+std::vector<double> velocity_grid(double slowest, double fastest, const CaptureEstimate& capture) {
+  const double last = 1.2 * fastest, rise = capture.value;
+  const bool rises = capture.found && rise > 0.0;
+  const double first = rises ? std::min(slowest, 0.9 * rise) : 0.8 * slowest;
+  if (!rises || !(rise < last)) return log_spaced(first, last, even_velocities);
+  // Above V*, e rises like sqrt(V - V*): steps that grow with the distance from V* show no corners.
+  std::vector<double> grid = log_spaced(first, rise, captured_velocities);
+  for (int i = 1; i <= rising_velocities; ++i) {
+    grid.push_back(rise * std::pow(last / rise, std::pow(double(i) / rising_velocities, 2)));
   }
-  return {grid.begin(), grid.end()};
+  return grid;
 }
 
 /// e at every velocity [1]; NaN if the impact cannot be solved.
@@ -73,6 +74,12 @@ void drop_unanswered(RestitutionCurve& curve) {
 
 }  // namespace
 
+void add_restitution(const ImpactModel& model, std::span<const double> theta,
+                     const BandSource& band, RestitutionCurve& curve) {
+  curve.restitution = evaluate(model, theta, curve);
+  add_band(model, band, curve);
+}
+
 std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
                                                  const std::vector<Dataset>& datasets,
                                                  const std::vector<CaptureEstimate>& captures,
@@ -94,7 +101,7 @@ std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
       slowest = slowest == 0.0 ? point.velocity : std::min(slowest, point.velocity);
       fastest = std::max(fastest, point.velocity);
     }
-    curve.velocity = velocity_grid(slowest, fastest, capture.found ? capture.value : 0.0);
+    curve.velocity = velocity_grid(slowest, fastest, capture);
     curve.restitution = evaluate(fitted.model, fitted.theta, curve);
     drop_unanswered(curve);
     add_band(fitted.model, band, curve);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct BandSource {
   double level = 0.95;
   int threads = 0;  ///< 0: all cores. Results do not depend on it.
 };
+
+/// Completes a curve of which dataset, diameter and velocities are known: e, and its band unless
+/// there are too few replicates.
+void add_restitution(const ImpactModel& model, std::span<const double> theta,
+                     const BandSource& band, RestitutionCurve& curve);
 
 /// e(V) of every series from below capture (or the slowest point) to above the fastest point, with
 /// the pointwise percentile band of the bootstrap and the two-point curve of its dataset.

@@ -16,6 +16,7 @@
 namespace {
 
 using support::Outcome;
+using support::Words;
 using support::Workplace;
 
 /// The number behind `key` at the start of a line.
@@ -292,6 +293,41 @@ TEST(Fit, WithoutAnAnswerEndsWithStatusThree) {
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_NE(run.err.find("cannot determine"), std::string::npos) << run.err;
+}
+
+TEST(Figure, IsAFileInTheFormatOfItsName) {
+  const Workplace place;
+  const Words words = {"figure", "fit.toml", "--replicates", "0", "--out"};
+  const auto with = [&](Words more) {
+    Words all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return place.run(all);
+  };
+  const Outcome svg = with({"e.svg", "--width", "17cm"});
+  EXPECT_EQ(svg.status, 0) << svg.err;
+  EXPECT_NE(place.read("e.svg").find("width=\"170mm\""), std::string::npos);
+  EXPECT_NE(svg.out.find("C_A = "), std::string::npos) << "a caption";
+  EXPECT_EQ(with({"new/e.pdf"}).status, 0);
+  EXPECT_TRUE(place.read("new/e.pdf").starts_with("%PDF-"));
+  EXPECT_EQ(with({"e.png"}).status, 0);
+  EXPECT_TRUE(place.read("e.png").starts_with("\x89PNG"));
+  for (const char* wrong : {"e.jpg", "e", ".pdf"}) {
+    const Outcome refused = with({wrong});
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_FALSE(place.has(wrong));
+  }
+}
+
+TEST(Figure, SaysWhichProgramIsMissing) {
+  const Workplace place;
+  const std::string command = "cd '" + place.path().string() +
+                              "' && PATH=/nowhere '" RECOIL_BINARY
+                              "' figure fit.toml --replicates 0 --out e.pdf 2> complaint.txt";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  const std::string complaint = place.read("complaint.txt");
+  EXPECT_NE(complaint.find("librsvg2-bin"), std::string::npos) << complaint;
+  EXPECT_FALSE(place.has("e.pdf"));
 }
 
 TEST(CommandLine, SuggestsTheNearestOption) {

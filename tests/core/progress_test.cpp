@@ -39,6 +39,19 @@ TEST(Progress, PrintsALineInAPipeWhenTheWorkTakesLonger) {
   EXPECT_EQ(text.find('\r'), std::string::npos) << "no bar in a pipe";
 }
 
+TEST(Progress, IsSilentWhereASilenceLives) {
+  constexpr Progress::Pace every_step = {milliseconds(0), milliseconds(0)};
+  {
+    const Progress::Silence silence;
+    const Progress::Silence inner(false);
+    EXPECT_EQ(printed(milliseconds(1), every_step), "");
+    std::string elsewhere;
+    std::thread([&] { elsewhere = printed(milliseconds(1), every_step); }).join();
+    EXPECT_NE(elsewhere, "");
+  }
+  EXPECT_NE(printed(milliseconds(1), every_step), "");
+}
+
 /// What 5 steps print on a terminal of this kind.
 std::string shown(const char* kind) {
   int ends[2];

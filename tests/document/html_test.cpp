@@ -26,6 +26,8 @@ TEST(Html, SetsSymbolsAndUnits) {
   EXPECT_EQ(html_of(say("{d}{}", exponent("-0.83"))), "<i>d</i><sup>-0.83</sup>");
   EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-")
       << "plain text is not searched for symbols";
+  EXPECT_EQ(html_of(Sentence("(1.23 +/- 0.11)e-7 s/m, (a)e-7b")),
+            "(1.23 ± 0.11) × 10<sup>−7</sup> s/m, (a)e-7b");
   EXPECT_EQ(html_of(Sentence("6.89 um, 3 +/- 1 J/m2 (p < 1e-6), -1.5e+08.")),
             "6.89 µm, 3 ± 1 J/m² (p &lt; 10<sup>−6</sup>), -1.5 × 10<sup>8</sup>.");
   EXPECT_EQ(html_of(Sentence("2.5e8 Pa, 4 umbrellas, 149d13e4, v1e5")),
@@ -79,6 +81,8 @@ TEST(Html, LabelsOfStackedRowsHaveTheMarkupOfTheHeadings) {
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\"><i>C</i><sub>H</sub> [s/m]</th>"));
   EXPECT_THAT(html, HasSubstr("<td><span class=\"label\"><i>C</i><sub>H</sub> [s/m]</span>1</td>"));
   EXPECT_THAT(html, HasSubstr("<span class=\"label\">rms of <i>e</i></span>2</td>"));
+  const std::vector<Section> without_a_page = {{"a", "A", "", {table}}};
+  EXPECT_THAT(html_of(without_a_page), Not(HasSubstr("label")));
 }
 
 TEST(Html, SectionsWithoutAPageHaveHeadings) {

@@ -7,14 +7,25 @@
 namespace recoil {
 namespace {
 
+std::string with_error(double value, double error) {
+  return plain_text(Number{value, significant(4), error}.words());
+}
+
 TEST(Number, AnErrorDecidesTheDigitsOfItsValue) {
-  EXPECT_EQ(number_with_error(0.0031234, 0.00021).first, "0.00312");
-  EXPECT_EQ(number_with_error(0.0031234, 0.00021).second, "0.00021");
-  EXPECT_EQ(number_with_error(8.9161, 0.4321).first, "8.92");
-  EXPECT_EQ(number_with_error(1234.5, 30.0).first, "1234");
-  EXPECT_EQ(number_with_error(1.2341e-7, 1.1e-9).first, "1.234e-7");
-  EXPECT_EQ(number_with_error(4.507e7, 371549.0).second, "3.7e+5");
-  EXPECT_EQ(number_with_error(2.0, 0.0).first, "2");
+  EXPECT_EQ(with_error(0.0031234, 0.00021), "0.00312 +/- 0.00021");
+  EXPECT_EQ(with_error(8.9161, 0.4321), "8.92 +/- 0.43");
+  EXPECT_EQ(with_error(1234.5, 30.0), "1234 +/- 30");
+  EXPECT_EQ(with_error(1.2345, 0.0999), "1.23 +/- 0.10");
+  EXPECT_EQ(with_error(2.0, 0.0), "2");
+}
+
+TEST(Number, OneExponentIsThatOfTheErrorAndTheInterval) {
+  EXPECT_EQ(with_error(1.2341e-7, 1.1e-9), "(1.234 +/- 0.011)e-7");
+  EXPECT_EQ(with_error(4.507e7, 371549.0), "(4.507 +/- 0.037)e7");
+  EXPECT_EQ(with_error(-9.96e-6, 1e-5), "(-1.0 +/- 1.0)e-5");
+  EXPECT_EQ(NumberRange({1.21e-7, 1.2561e-7, beside(1.2341e-7, 1.1e-9)}).text(),
+            "[1.210e-7, 1.256e-7]");
+  EXPECT_EQ(NumberRange({0.000898, 0.00696, beside(0.0039, 0.0016)}).text(), "[0.0009, 0.0070]");
 }
 
 TEST(Number, IsShort) {
@@ -33,8 +44,6 @@ TEST(Number, RoundingUpToATenKeepsTheDigits) {
   EXPECT_EQ(digits(-9.9999, 3), "-10.0");
   EXPECT_EQ(digits(9.99, 3), "9.99");
   EXPECT_EQ(digits(99999.6, 3), "100000");
-  EXPECT_EQ(number_with_error(1.2345, 0.0999).first, "1.23");
-  EXPECT_EQ(number_with_error(1.2345, 0.0999).second, "0.10");
 }
 
 TEST(Number, EveryNotation) {

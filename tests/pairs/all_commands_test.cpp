@@ -74,6 +74,7 @@ class AllCommands : public testing::Test {
     if (!fit.quick) return;
     run(fit, {"fit", "fit.toml", "--verbose", "--threads", "1", "--out", "."});
     run(fit, {"fit", "fit.toml", "--replicates", "0", "--threads", "1"});
+    run(fit, {"figure", "fit.toml", "--replicates", "0", "--out", "figure.svg"});
     run_json(fit, "compare", {"compare", "fit.json", "fit.json"});
     for (const std::string& target : targets) {
       run(fit, {"export", "fit.toml", "--to", target, "--parameters", "fit.json", "--out", target});

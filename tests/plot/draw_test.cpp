@@ -77,6 +77,12 @@ TEST(Draw, IsReadyToInline) {
   EXPECT_STREQ(root.attribute("aria-label").value(), "A <picture> & more");
 }
 
+TEST(Draw, ForPrintHasItsSizeInMillimetres) {
+  const pugi::xml_document document = parsed(draw_svg(picture_with(three_points()), 96.0));
+  EXPECT_STREQ(document.document_element().attribute("width").value(), "96mm");
+  EXPECT_STREQ(document.document_element().attribute("height").value(), "68mm");
+}
+
 TEST(Draw, EveryIdBeginsWithTheNameAndEveryReferenceHasItsTarget) {
   Picture picture = picture_with(three_points());
   picture.plots.push_back(plot_with(Discs{{1.0}, {2.0}, {0.5}}));

@@ -169,7 +169,22 @@ def test_it_shows_itself_in_a_notebook(here, misfit):
     assert "<table>" in page and "<i>C</i><sub>H</sub>" in page and "synthetic" in page
     assert repr(result).startswith("<recoil.FitResult mine: C_H = ")
     assert "<p" in misfit._repr_html_()
+    assert not any('class="label"' in one._repr_html_() for one in (result, misfit))
     assert "<table" in recoil.load_dataset("mine")._repr_html_()
+
+
+def test_the_band_is_that_of_the_page(fitted):
+    table = fitted.curve.to_pandas()
+    lower, upper = fitted.eval_band(table["incident_velocity"], table["diameter_um"])
+    bands = [row.band for row in fitted.curve]
+    # fit.json has nine digits of the velocity: near capture e changes fast
+    assert np.allclose(np.transpose([lower, upper]), bands, atol=1e-5)
+    lower, upper = fitted.eval_band([[1.0, 5.0]], [[2.0], [4.0]])
+    assert lower.shape == (2, 2) and (lower <= upper).all()
+    assert (lower[1] == fitted.eval_band([1.0, 5.0], 4.0)[0]).all()
+    with pytest.raises(recoil.InputError, match="give no band"):
+        recoil.fit([4, 5, 6], [0.9, 0.91, 0.9], d=4, particle="glass", surface="glass",
+                   replicates=0).eval_band(1.0, 2.0)
 
 
 def test_numbers_that_are_missing_are_none(here):

@@ -290,6 +290,21 @@ def test_every_shipped_fit_settles_in_ten_seconds(place, command, name, material
     assert 0 < loo["p_loo"] and loo["elpd"] < best
 
 
+# The signatures of from_dict, as arviz_base 1.x (io_dict.py) and ArviZ 0.22 (data/io_dict.py) have
+# them, without their bodies.
+def from_dict_1(data, *, name=None, sample_dims=None, save_warmup=None, index_origin=None, coords=None,
+                dims=None, pred_dims=None, pred_coords=None, check_conventions=True, attrs=None):
+    return data
+
+
+def from_dict_0(posterior=None, *, posterior_predictive=None, predictions=None, sample_stats=None,
+                log_likelihood=None, prior=None, prior_predictive=None, sample_stats_prior=None,
+                observed_data=None, constant_data=None, predictions_constant_data=None, coords=None,
+                dims=None, attrs=None):
+    return {"posterior": posterior, "sample_stats": sample_stats, "log_likelihood": log_likelihood,
+            "observed_data": observed_data}
+
+
 def test_draws_are_what_arviz_reads(here):
     import recoil
 
@@ -299,8 +314,10 @@ def test_draws_are_what_arviz_reads(here):
     assert chains * length == result.facts.posterior.draws
     assert draws["posterior"]["C_A"].mean() == pytest.approx(
         result.facts.posterior.parameters.C_A.mean)
-    # ArviZ 1.x takes the groups as one argument, 0.x as keywords; both know these names.
-    assert {"posterior", "sample_stats", "log_likelihood", "observed_data"} == set(draws)
+    groups = {"posterior", "sample_stats", "log_likelihood", "observed_data"}
+    assert groups == set(from_dict_1(draws)) == set(from_dict_0(**draws)) == set(draws)
+    assert all(isinstance(name, str) and values.shape[:2] == (chains, length)
+               for group in groups - {"observed_data"} for name, values in draws[group].items())
     pointwise = draws["log_likelihood"]["restitution"]
     assert pointwise.shape == (chains, length, len(draws["observed_data"]["restitution"]))
     stats = draws["sample_stats"]

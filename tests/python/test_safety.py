@@ -78,6 +78,37 @@ def test_copies_and_pickles(here):
     assert [one.json for one in fits] == [refit(dataset).json] * 2
 
 
+def progress_of(_):
+    from recoil import _options
+
+    return _options.shows(True)
+
+
+def test_workers_and_those_who_ask_are_silent(here):
+    assert progress_of(0)
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert pool.map(progress_of, [0]) == [False]
+    with pytest.raises(recoil.InputError, match="give True or False"):
+        recoil.fit("mine.toml", progress="no")
+
+
+def test_no_progress_on_a_terminal(here):
+    script = ("import recoil, sys\n"
+              "r = recoil.fit('mine.toml', replicates=199, progress=eval(sys.argv[1]))\n"
+              "r.simulate(1.0, 2.0)\n")
+    for asked in (True, False):
+        ours, theirs = os.openpty()
+        subprocess.run([sys.executable, "-c", script, str(asked)], stderr=theirs, check=True,
+                       env={**os.environ, "TERM": "xterm"})
+        os.set_blocking(ours, False)
+        try:
+            seen = os.read(ours, 100000)
+        except BlockingIOError:
+            seen = b""
+        os.close(ours), os.close(theirs)
+        assert (b"bootstrap" in seen) == asked
+
+
 def test_names_in_notebooks_are_no_markup(here):
     pytest.importorskip("pandas")
     name = "<img src=x onerror=alert(1)>"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
@@ -127,6 +129,68 @@ TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
   ASSERT_EQ(regions.size(), 1U);
   EXPECT_LE(*regions[0].left, rules[0].at);
   EXPECT_GE(*regions[0].right, rules[0].at);
+}
+
+TEST(RestitutionOverview, HasErrorBarsCapturesAndPointsAboveItsBands) {
+  for (Analysis analysis : {sample::four_diameters(), sample::two_datasets()}) {
+    for (Observation& point : analysis.fitted.data.points) {
+      if (point.censored) point.captured = point.events;
+    }
+    const plot::Plot shown = restitution_overview(analysis, 392, 314).plots.at(0);
+    const auto place_of = [&](std::size_t kind, bool last) {
+      std::vector<std::size_t> found;
+      for (std::size_t k = 0; k < shown.layers.size(); ++k) {
+        if (shown.layers[k].index() == kind) found.push_back(k);
+      }
+      return found.empty() ? std::size_t{0} : last ? found.back() : found.front();
+    };
+    const std::size_t points = plot::Layer(plot::Points{}).index();
+    const std::size_t bands = plot::Layer(plot::Band{}).index();
+    ASSERT_FALSE(layers_of<plot::Band>(shown).empty());
+    EXPECT_LT(place_of(bands, true), place_of(points, false));
+    std::size_t drawn = 0;
+    for (const plot::Points& one : layers_of<plot::Points>(shown)) {
+      drawn += one.y.size();
+      const bool captured = one.name == "captured";
+      EXPECT_EQ(one.lower.empty(), captured || !analysis.fitted.data.noise.sd_stated);
+    }
+    EXPECT_EQ(drawn, analysis.fitted.data.points.size());
+  }
+}
+
+TEST(RestitutionOverview, FitsItsAxisToThePointsUnlessTheyFall) {
+  Analysis analysis = sample::four_diameters();
+  const auto axis = [&] { return restitution_overview(analysis, 392, 314).plots.at(0).y; };
+  EXPECT_EQ(axis().from, 0.0);
+  // Rebounds between 0.90 and 0.94, far above capture.
+  auto& points = analysis.fitted.data.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].restitution = 0.90 + 0.04 * static_cast<double>(i % 5) / 4.0;
+    points[i].sd = 0.005;
+    points[i].censored = false;
+    points[i].velocity *= 1e3;
+  }
+  for (RestitutionCurve& curve : analysis.uncertainty.curves) {
+    for (double& e : curve.restitution) e = 0.92;
+  }
+  EXPECT_GT(axis().from, 0.8);
+  EXPECT_LT(axis().from, 0.895);
+  EXPECT_GT(axis().to, 0.945);
+  EXPECT_LT(axis().to, 1.0);
+  points.front().restitution = 0.2;
+  EXPECT_EQ(axis().from, 0.0);
+}
+
+TEST(RestitutionOverview, NamesDatasetsByColourAndSizesByDash) {
+  const plot::Plot shown = restitution_overview(sample::two_datasets(), 392, 314).plots.at(0);
+  std::map<std::string, std::string_view> dashes;
+  for (const plot::Line& line : layers_of<plot::Line>(shown)) {
+    if (!line.name.empty()) dashes.emplace(line.name, line.stroke.dash);
+  }
+  ASSERT_FALSE(dashes.empty());
+  std::set<std::string_view> distinct;
+  for (const auto& [name, dash] : dashes) distinct.insert(dash);
+  EXPECT_EQ(distinct.size(), dashes.size());
 }
 
 TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {

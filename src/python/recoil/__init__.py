@@ -24,7 +24,7 @@ from ._datasets import Dataset, Material, named
 from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._options import given, path_of, plain, takes_options, text_of
+from ._options import given, path_of, plain, shows, takes_options, text_of
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
 
 if TYPE_CHECKING:
@@ -148,6 +148,7 @@ def fit(
     uncertainty: Optional[Table] = None,
     diagnosis: Optional[Table] = None,
     name: str = "fit",
+    progress: bool = True,
     # made by ./run docs: arguments of fit
     replicates: Optional[Union[int, str]] = None,
     scheme: Optional[str] = None,
@@ -172,7 +173,8 @@ def fit(
     docs/fit-file.md lists the keys.
 
     The numbers equal those of the command with the same options. Other Python threads can run
-    during the fit.
+    during the fit. ``progress=False``: nothing is written to standard error; workers of
+    multiprocessing are always silent.
 
     Raises ``InputError`` for a mistake in a file or an option, ``ComputationError`` if there is no
     usable result.
@@ -183,7 +185,8 @@ def fit(
     stated = {"d": d, "particle": particle, "surface": surface, "e_sd": e_sd, "V_sd": V_sd,
               "events": events, "captured": captured, "series": series,
               "provenance": provenance, "units": units}
-    return FitResult(_recoil.fit(_inputs(_points(source, e, stated), tables, name), options))
+    return FitResult(_recoil.fit(_inputs(_points(source, e, stated), tables, name), options,
+                                 shows(progress)))
 
 
 @takes_options("model")
@@ -221,6 +224,7 @@ def coverage(
     parameters: Optional[Table] = None,
     model: Optional[Table] = None,  # noqa: A002
     uncertainty: Optional[Table] = None,
+    progress: bool = True,
 ) -> Facts:
     """Measures how often the intervals contain the known truth in simulated data sets.
 
@@ -228,7 +232,8 @@ def coverage(
     as ``fit`` does."""
     options = given("coverage", locals())
     tables = {"parameters": parameters, "model": model, "uncertainty": uncertainty}
-    return facts_of(_recoil.coverage(_inputs(source, tables, "fit"), options))
+    return facts_of(
+        _recoil.coverage(_inputs(source, tables, "fit"), options, shows(progress)))
 
 
 def compare(*fits: Union[FitResult, PathLike]) -> Comparison:

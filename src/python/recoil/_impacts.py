@@ -52,6 +52,18 @@ class Impacts:
             return np.where(self.captured, 0.0, slope / (2.0 * self.restitution))
 
 
+def broadcast(V: npt.ArrayLike, d: npt.ArrayLike) -> "tuple[Array, Array]":  # noqa: N803
+    """Velocities and diameters as arrays of one shape. Raises ``InputError``."""
+    import numpy as np
+
+    velocity, diameter = numbers_of("V", V), numbers_of("d", d)
+    try:
+        velocity, diameter = np.broadcast_arrays(velocity, diameter)
+    except ValueError:
+        refuse(f"V has the shape {velocity.shape} and d {diameter.shape}", "give arrays of one shape")
+    return velocity, diameter
+
+
 class Model:
     """The impact model of a fit with values for its parameters."""
 
@@ -77,11 +89,7 @@ class Model:
         """
         import numpy as np
 
-        velocity, diameter = numbers_of("V", V), numbers_of("d", d)
-        try:
-            velocity, diameter = np.broadcast_arrays(velocity, diameter)
-        except ValueError:
-            refuse(f"V has the shape {velocity.shape} and d {diameter.shape}", "give arrays of one shape")
+        velocity, diameter = broadcast(V, d)
         gradient = flag_of("gradient", gradient)
         shape = velocity.shape
         squared, captured, columns = self._model.simulate(

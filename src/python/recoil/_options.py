@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import multiprocessing
 import numbers
 import os
 import textwrap
@@ -73,6 +74,14 @@ def flag_of(name: str, value: Any) -> bool:
     if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):
         return bool(value)
     refuse(f"{name} is {type(value).__name__}", "give True or False")
+
+
+def shows(progress: Any) -> bool:
+    """Is progress shown? Workers of multiprocessing, joblib and dask never show it.
+
+    Raises ``InputError``.
+    """
+    return flag_of("progress", progress) and multiprocessing.current_process().name == "MainProcess"
 
 
 def number_of(name: str, value: Any) -> float:

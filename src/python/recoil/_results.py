@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 from . import _recoil
 from ._errors import refuse, refuse_to_replace
 from ._facts import Facts, facts_of
-from ._impacts import Impacts, Model
-from ._options import flag_of, given, path_of, takes_options, text_of
+from ._impacts import Impacts, Model, broadcast
+from ._options import flag_of, given, path_of, shows, takes_options, text_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -214,9 +214,11 @@ class FitResult(_Reported):
         seed: Optional[int] = None,
         threads: int = 0,
         # end
+        progress: bool = True,
     ) -> "Diagnosis":
         """Finds systematic errors of the model and their causes, like ``recoil diagnose``."""
-        return Diagnosis(self._compiled.diagnose(given("diagnose", locals())))
+        options = given("diagnose", locals())
+        return Diagnosis(self._compiled.diagnose(options, shows(progress)))
 
     @takes_options("predict")
     def predict(
@@ -229,12 +231,15 @@ class FitResult(_Reported):
         midpoints: bool = False,
         dataset: Optional[str] = None,
         # end
+        progress: bool = True,
     ) -> "Prediction":
         """Predicts the mean restitution of a mixture of sizes, like ``recoil predict``.
 
         ``sizes``: a CSV file with the columns diameter and count.
         """
-        return Prediction(self._compiled.predict(path_of("sizes", sizes), given("predict", locals())))
+        options = given("predict", locals())
+        return Prediction(
+            self._compiled.predict(path_of("sizes", sizes), options, shows(progress)))
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, ends of the recommended interval and
@@ -433,6 +438,23 @@ class FitResult(_Reported):
     def eval(self, V: npt.ArrayLike, d: npt.ArrayLike, *, dataset: str = "") -> Array:  # noqa: N803
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
         return self.simulate(V, d, dataset=dataset).restitution
+
+    def eval_band(self, V: npt.ArrayLike, d: npt.ArrayLike, *,  # noqa: N803
+                  dataset: str = "") -> "tuple[Array, Array]":
+        """The lower and the upper end of the band of ``eval(V, d)`` [1], pointwise at the level of
+        the fit: quantiles over the replicates that give the bands of the page and of ``curve``.
+
+        Raises ``InputError`` if the fit has too few replicates.
+        """
+        import numpy as np
+
+        velocity, diameter = broadcast(V, d)
+        lower, upper = np.full(velocity.shape, np.nan), np.full(velocity.shape, np.nan)
+        for size in np.unique(diameter):
+            at = diameter == size
+            lower[at], upper[at] = self._compiled.band(
+                velocity[at].tolist(), float(size), text_of("dataset", dataset))
+        return lower, upper
 
     @property
     def aic(self) -> float:
