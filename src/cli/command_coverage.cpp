@@ -9,6 +9,7 @@
 #include "core/quoting.hpp"
 #include "core/statistics.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "document/terminal.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
@@ -77,6 +78,35 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
   return text;
 }
 
+/// The same for a terminal, without what was not made.
+std::string coverage_text(const CoverageResult& result, const FitSpec& spec,
+                          const CoverageOptions& options) {
+  Table table;
+  table.columns = {{"quantity"},           {"truth"},
+                   {"well determined"},    {"interval", "", true},
+                   {"contains the truth"}, {"median width"}};
+  for (const CoverageRow& row : result.rows) {
+    for (const CoverageCell& cell : row.cells) {
+      if (cell.offered == 0) continue;
+      table.rows.push_back({Sentence(fmt::format("{} [{}]", row.parameter, row.unit)),
+                            Number{row.truth, significant(4)},
+                            say("{} of {}", row.identifiable, result.datasets),
+                            Sentence(cell.interval), Sentence(percentage(cell.held, cell.offered)),
+                            Number{cell.median_width, significant(3)}});
+    }
+  }
+  const std::string head = fmt::format(
+      "{} data sets like {}; {}. Level {:.0f} %, {} replicates each, seed {}. {} fits and {} "
+      "refits "
+      "failed. In brackets: 95 % limits of each share (Wilson).",
+      result.datasets, spec.id,
+      result.truth_origin == TruthOrigin::recipe ? "truth and noise from the recipe"
+                                                 : "the truth is the fit's own estimate",
+      100.0 * options.uncertainty.level, options.uncertainty.replicates, options.uncertainty.seed,
+      result.failed, result.refits_failed);
+  return wrap(head, terminal_columns, 2) + "\n" + terminal_text(table, 0);
+}
+
 Pieces pieces_of(const Prepared& ready) {
   return {"coverage", ready.origin.pieces, ready.coverage.uncertainty.threads,
           [&ready](std::size_t i) {
@@ -120,7 +150,7 @@ void run_coverage(const GivenOptions& given) {
   }
   const std::string printed =
       given.has("--json") ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
-                          : text;
+                          : coverage_text(result, ready->spec, ready->coverage);
   if (!out.empty()) {
     write_or_print({{out, text}}, printed);
     kept->forget();
@@ -133,8 +163,8 @@ void run_coverage(const GivenOptions& given) {
 void add_coverage(Program& program) {
   program.command("coverage", "measure how often the intervals contain the truth", R"(
 Simulates data sets of the same design with the fitted values as the truth, fits each of them,
-and counts how often the intervals contain the truth. Prints Markdown. With --out, Ctrl-C keeps
-finished work, and the same command then continues.
+and counts how often the intervals contain the truth. With --out it also writes a table in
+Markdown, and Ctrl-C keeps finished work: the same command then continues.
 
   recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md
 

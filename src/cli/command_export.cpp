@@ -184,7 +184,7 @@ void run_export(const GivenOptions& given) {
   for (WholeFile& file : files) file.path = out / file.path;
   write_whole_files(files);
 
-  for (const std::string& line : job.heading) print_text("{}\n", line);
+  for (const std::string& line : job.heading) print_line(line);
   if (!holds_all_sizes(target) && !given.has("--diameter") && sizes.size() > 1) {
     print_line(fmt::format("note: without --diameter, {:g} um is used, the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));

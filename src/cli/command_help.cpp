@@ -5,7 +5,7 @@
 namespace recoil {
 
 void add_help(Program& program) {
-  program.command("help", "show the help of recoil or of a command", R"(
+  program.command("help", "show the help of recoil, or all of that of a command", R"(
   recoil help
   recoil help fit)",
                   [&program](const GivenOptions& given) {
@@ -16,6 +16,7 @@ void add_help(Program& program) {
                         std::ranges::find(commands, words.front(), &Program::CommandText::name) !=
                             commands.end();
                     if (known) words.emplace_back("--help");
+                    program.help_in_full();
                     program.run(words);  // says what is wrong with an unknown command
                   });
 }

@@ -110,14 +110,15 @@ void run_init(const GivenOptions& given) {
   write_whole_file(fit_file, new_fit_file);
   load_inputs(fit_file);  // throws if the files are not valid
   made.keep();
-  print_text("{}: {}{}\n", folder.string(), counted(result.dataset.points.size(), "point"),
-             points.empty() ? ", SYNTHETIC: computed from the model, with noise. Write your points "
-                              "to points.csv and their provenance to datapackage.json"
-                            : "");
+  print_line(fmt::format(
+      "{}: {}{}", folder.string(), counted(result.dataset.points.size(), "point"),
+      points.empty() ? ", SYNTHETIC: computed from the model, with noise. Write your points to "
+                       "points.csv and their provenance to datapackage.json"
+                     : ""));
   for (const DatasetWarning& warning : result.dataset.warnings) {
-    print_text("note: {}\n", warning_sentence(warning));
+    print_line("note: " + warning_sentence(warning));
   }
-  for (const ImportNote& note : result.notes) print_text("note: {}\n", note_sentence(note));
+  for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
   print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
              folder.string());
 }

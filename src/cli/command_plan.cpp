@@ -138,7 +138,7 @@ void run_plan(const GivenOptions& given) {
     files.push_back({out / "plan.json", result});
     write_whole_files(files, replacing);
   }
-  print_text("{}", given.has("--json") ? result : plan_text(plan, origin));
+  print_text("{}", given.has("--json") ? result : plan_text(plan, origin, importance_of(given)));
 }
 
 }  // namespace

@@ -153,9 +153,10 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
   if (simulated.extended) {
-    print_text("\nthe impact of the base model at the contact of one sphere, in at {:.6g} m/s{}:\n",
-               c.velocity,
-               captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity));
+    print_text("\n");
+    print_line(fmt::format(
+        "the impact of the base model at the contact of one sphere, in at {:.6g} m/s{}:",
+        c.velocity, captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity)));
   } else {
     print_text("restitution: {:.8f}\n", captured ? 0.0 : e);
     print_text("outcome: {}\n", to_string(impact.outcome));
@@ -174,12 +175,13 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
   }
   print_text("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
   print_text("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
-  print_text("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
-             groups.alpha, groups.gamma,
-             groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
-             c.velocity * std::pow(groups.beta, 1.25));
-  print_text("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
-             c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
+  print_line(fmt::format(
+      "groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)", groups.alpha,
+      groups.gamma, groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
+      c.velocity * std::pow(groups.beta, 1.25)));
+  print_line(
+      fmt::format("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}",
+                  c.stiffness / units::GPa, c.adhesion_force, to_string(phase)));
   if (captured) {
     print_line(
         "note: adhesion did work on the sphere on its way in, so the shares can exceed 100 %; the "
@@ -253,11 +255,11 @@ void simulate(const GivenOptions& given) {
     return;
   }
   const ImpactConditions start = conditions_at(model, model.initial(), d, at.diameter, at.velocity);
-  print_text("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
-             parameters.empty()
-                 ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
-                 : origin_words(*fitted, parameters),
-             start.hertz_damping, start.adhesion_damping);
+  print_line("parameters: " +
+             (parameters.empty()
+                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
+                  : origin_words(*fitted, parameters)));
+  print_text("  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n", start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);
     if (!model.chain.empty()) {

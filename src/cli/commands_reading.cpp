@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -10,6 +12,42 @@
 #include "report/result_json.hpp"
 
 namespace recoil {
+namespace {
+
+/// At most `width` characters of `text`, cut behind a word.
+std::string cut_to(const std::string& text, std::size_t width) {
+  return text.size() <= width ? text : text.substr(0, text.rfind(' ', width - 4)) + " ...";
+}
+
+void print_materials(const GivenOptions& given) {
+  constexpr std::size_t widest_note = 25;
+  print_text("{:<20}{:>6}{:>9}{:>6}{:>6}{:>6}\n", "", "kg/m3", "E [GPa]", "+- %", "nu", "Y");
+  for (const TabledMaterial& one : tabled_materials()) {
+    print_text("{:<20}{:>6.0f}{:>9.4g}{:>6.2g}{:>6.3g}{:>6}  {}\n", one.name, one.density,
+               one.youngs_modulus() / units::GPa,
+               100.0 * one.youngs_modulus_sd() / one.youngs_modulus(), one.poisson_ratio,
+               one.yield_strength > 0.0 ? fmt::format("{:.4g}", 1e-6 * one.yield_strength) : "-",
+               cut_to(std::string(one.what), widest_note));
+  }
+  print_line(
+      "Errors are one standard deviation: a range of Young's modulus is taken as uniform; for a "
+      "single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed. Y is the yield "
+      "strength [MPa] in this state; another state of a metal has another one.");
+  print_line(fmt::format("Source: {}.", tabled_materials_source));
+  if (!given.has("--verbose")) {
+    print_text("Other sources: recoil materials --verbose\n");
+    return;
+  }
+  for (const TabledMaterial& one : tabled_materials()) {
+    const bool common = one.source == tabled_materials_source;
+    if (common && one.what.size() <= widest_note) continue;
+    print_line(fmt::format("{}: {}{}{}.", one.name, one.what,
+                           common || one.what.empty() ? "" : "; ",
+                           common ? "" : std::string(one.source)));
+  }
+}
+
+}  // namespace
 
 void add_check(Program& program) {
   program.command("check", "validate a dataset folder and show its contents", R"(
@@ -19,7 +57,8 @@ If a file contains an error, recoil prints one line:
 
   recoil check datasets/dahneke1975-quartz)",
                   [](const GivenOptions& given) {
-                    print_text("{}", dataset_text(load_dataset(given.text("DIR"))));
+                    print_text("{}",
+                               dataset_text(load_dataset(given.text("DIR")), Importance::detail));
                   });
 }
 
@@ -42,36 +81,13 @@ standard deviations. The column "held out" is the error at diameters left out of
 }
 
 void add_materials(Program& program) {
-  program.command(
-      "materials", "list the materials that --particle and --surface know by name", R"(
+  program.command("materials", "list the materials that --particle and --surface know by name", R"(
 import and init take --particle NAME and --surface NAME; NAME,key=value changes a
 constant. The constants enter the dataset with their errors.
 
   recoil import drops.csv --format heights --into ball --particle steel --surface glass ...
   recoil init my-spheres --particle steel,density=7700 --surface silicon --diameter 70)",
-      [](const GivenOptions&) {
-        print_text("{:<22}{:>16}{:>20}{:>18}{:>9}  {}\n", "name", "density [kg/m3]", "E [GPa]",
-                   "nu", "Y [MPa]", "");
-        for (const TabledMaterial& one : tabled_materials()) {
-          print_text(
-              "{:<22}{:>8.0f} +- {:<4.0f}{:>12.4g} +- {:<7.2g}{:>7.3g} +- {:<6.2g}{:>9}  {}\n",
-              one.name, one.density, tabled_density_error * one.density,
-              one.youngs_modulus() / units::GPa, one.youngs_modulus_sd() / units::GPa,
-              one.poisson_ratio, one.poisson_ratio_sd,
-              one.yield_strength > 0.0 ? fmt::format("{:.4g}", 1e-6 * one.yield_strength)
-                                       : std::string("-"),
-              one.what);
-        }
-        print_text(
-            "Source: {}.\n"
-            "Errors are one standard deviation: a range of Young's modulus is taken as uniform. "
-            "For a single value, 2 % of E, 1 % of the density and 0.01 of nu are assumed. Y is the "
-            "yield strength in this state; another state of a metal has another one.\n",
-            tabled_materials_source);
-        for (const TabledMaterial& one : tabled_materials()) {
-          if (one.source != tabled_materials_source) print_text("{}: {}.\n", one.name, one.source);
-        }
-      });
+                  print_materials);
 }
 
 }  // namespace recoil

@@ -9,6 +9,7 @@
 
 #include "core/quoting.hpp"
 #include "data/text.hpp"
+#include "document/terminal.hpp"
 #include "options/useless_options.hpp"
 
 namespace recoil {
@@ -21,6 +22,101 @@ struct Program::Entry {
   std::map<const OptionRow*, std::vector<std::string>> values = {};
 
   GivenOptions given() const;
+};
+
+namespace {
+
+constexpr std::size_t meanings_from = 28;  // column of the meanings in a help
+
+/// A line that begins with a space: a command is continued behind a backslash, other words are
+/// wrapped.
+std::string wrapped_line(std::string line) {
+  const std::string_view words = std::string_view(line).substr(line.find_first_not_of(' '));
+  const std::size_t indent = line.size() - words.size();
+  const bool command = words.starts_with("recoil ") || words.starts_with("--");
+  std::string out;
+  while (line.size() > terminal_columns) {
+    const std::size_t cut = line.rfind(' ', terminal_columns - (command ? 2 : 0));
+    if (cut == std::string::npos || cut <= indent + 4) break;
+    out += line.substr(0, cut) + (command ? " \\\n" : "\n");
+    line = std::string(indent + 4, ' ') + line.substr(cut + 1);
+  }
+  return out + line;
+}
+
+/// The paragraphs of `text` wrapped; lines that begin with a space stay lines.
+std::string wrapped_paragraphs(const std::string& text) {
+  std::string out, paragraph;
+  const auto end_paragraph = [&] {
+    if (!paragraph.empty()) out += wrap(paragraph, terminal_columns, 0) + '\n';
+    paragraph.clear();
+  };
+  for (const std::string& line : lines_of(text)) {
+    const bool kept = line.empty() || line.front() == ' ';
+    if (kept) {
+      end_paragraph();
+      out += (line.empty() ? line : wrapped_line(line)) + '\n';
+    } else {
+      paragraph += line + ' ';
+    }
+  }
+  end_paragraph();
+  return out;
+}
+
+/// The first words of a meaning, up to what explains them, in one line.
+std::string first_words(const std::string& meaning) {
+  constexpr std::size_t room = terminal_columns - meanings_from;
+  std::string words = meaning.substr(0, meaning.find_first_of(";:("));
+  if (words.size() > room) words.resize(words.rfind(' ', room));
+  words.erase(words.find_last_not_of(" ,") + 1);
+  return words;
+}
+}  // namespace
+
+/// Help in the width of a terminal. A command with so many options that their meanings do not fit
+/// on a screen gets one line for each option.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  bool in_full = false;  ///< however long it becomes
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    constexpr std::ptrdiff_t most_lines = 46;
+    brief_ = false;
+    std::string text = Formatter::make_help(app, name, mode);
+    if (in_full || std::ranges::count(text, '\n') <= most_lines) return text;
+    brief_ = true;
+    return Formatter::make_help(app, name, mode) +
+           fmt::format("\nAll that there is to say of every option: recoil help {}\n",
+                       app->get_name());
+  }
+  std::string make_option(const CLI::Option* option, bool positional) const override {
+    std::string name = make_option_name(option, positional);
+    const std::string more = make_option_opts(option);
+    if (!brief_ || name.size() + more.size() + 4 < meanings_from) name += more;
+    return entry(name, brief_ ? first_words(option->get_description()) : option->get_description());
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return entry(command->get_name(), command->get_description());
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped_paragraphs(app->get_description());
+  }
+  std::string make_footer(const CLI::App* app) const override {
+    return wrapped_paragraphs(app->get_footer());
+  }
+
+ private:
+  static std::string entry(const std::string& name, const std::string& meaning) {
+    std::string out = "  " + name;
+    if (meaning.empty()) return out + '\n';
+    out += out.size() < meanings_from ? std::string(meanings_from - out.size(), ' ')
+                                      : '\n' + std::string(meanings_from, ' ');
+    return out + wrap(meaning, terminal_columns, meanings_from) + '\n';
+  }
+
+  mutable bool brief_ = false;
 };
 
 namespace {
@@ -106,13 +202,17 @@ GivenOptions Program::Entry::given() const {
 }
 
 Program::Program(const std::string& meaning, const std::string& footer, const std::string& version)
-    : app_(std::make_unique<CLI::App>(meaning, "recoil")) {
+    : app_(std::make_unique<CLI::App>(meaning, "recoil")),
+      help_(std::make_shared<HelpFormatter>()) {
+  app_->formatter(help_);
   app_->set_version_flag("--version", "recoil " + version);
   app_->require_subcommand(1);
   app_->footer(footer);
 }
 
 Program::~Program() = default;
+
+void Program::help_in_full() { help_->in_full = true; }
 
 void Program::command(const std::string& name, const std::string& meaning,
                       const std::string& footer, Action action) {

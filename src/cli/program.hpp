@@ -21,6 +21,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class HelpFormatter;
+
 /// The program with its commands, whose options are those of the table of options. Only program.cpp
 /// includes the large parser CLI11.
 class Program {
@@ -52,10 +54,14 @@ class Program {
   };
   std::vector<CommandText> commands() const;
 
+  /// Prints the whole meaning of every option in a help, even if it does not fit on a screen.
+  void help_in_full();
+
  private:
   struct Entry;
 
   std::unique_ptr<CLI::App> app_;
+  std::shared_ptr<HelpFormatter> help_;
   std::list<Entry> entries_;  // CLI11 writes into them
 };
 

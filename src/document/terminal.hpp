@@ -10,10 +10,10 @@
 /// brackets. Figures are omitted.
 namespace recoil {
 
-inline constexpr std::size_t terminal_columns = 100;  ///< largest and default width
+inline constexpr std::size_t terminal_columns = 80;
 
 /// The width of standard output: that of the variable COLUMNS or of the terminal, limited to 60 to
-/// `terminal_columns`.
+/// 100; otherwise `terminal_columns`.
 std::size_t output_columns();
 
 /// Wraps `text` at spaces into lines of at most `width` code points. All lines but the first are

@@ -305,7 +305,7 @@ const std::vector<OptionRow>& option_rows() {
        "how impacts are integrated: fast, or with CVODES as a reference", "fast", "fit", "solver"},
       {"fit diagnose simulate predict compare pair plan coverage", "--json", nothing(),
        "print the result as JSON; notes and warnings go to stderr"},
-      {"fit diagnose", "--verbose", nothing(), "print all details"},
+      {"fit diagnose plan materials", "--verbose", nothing(), "print all details"},
   };
   return rows;
 }

@@ -243,6 +243,11 @@ class Planner {
     take(low);
     if (good(plan_.settings)) return;
     take(most);
+    leave_out_hopeless();
+    if (std::vector<PlannedSetting> few = settings_for(low); good(few)) {
+      take(low);
+      return;
+    }
     while (good(plan_.settings) && plan_.points - low > std::max(1, low / 50)) {
       const int middle = static_cast<int>(std::sqrt(static_cast<double>(low) * plan_.points));
       const int next = std::clamp(middle, low + 1, plan_.points - 1);
@@ -377,8 +382,20 @@ class Planner {
     return PointConditions::no_series;
   }
 
+  /// Do all quantities that the number of points decides about have the wanted error?
   bool good(const std::vector<PlannedSetting>& settings) const {
-    return variances_of(problem_of(settings), counts_of(settings)).maxCoeff() <= wanted_variance();
+    const Eigen::VectorXd variances = variances_of(problem_of(settings), counts_of(settings));
+    return (sought_.size() == 0 ? variances : variances.cwiseProduct(sought_)).maxCoeff() <=
+           wanted_variance();
+  }
+
+  /// Leaves out the quantities that the settings of the plan, the most that there can be, do not
+  /// determine, unless these are all.
+  void leave_out_hopeless() {
+    const Eigen::VectorXd variances =
+        variances_of(problem_of(plan_.settings), counts_of(plan_.settings));
+    const Eigen::VectorXd kept = (variances.array() <= wanted_variance()).cast<double>();
+    if (kept.sum() > 0.0) sought_ = kept;
   }
 
   /// The factor on `counts` that gives quantity `q` the wanted error; nullopt if there is none.
@@ -425,6 +442,7 @@ class Planner {
   PlannedParameters parameters_;
   std::vector<PlannedScatter> scatter_;  // per dataset
   Eigen::MatrixXd asked_;                // one column for each quantity
+  Eigen::VectorXd sought_;  ///< 1: the quantity decides about the number of points; empty: all do
   PossiblePoints grid_;
   DesignProblem problem_;  // design problem of the grid
 };

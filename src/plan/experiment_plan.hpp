@@ -20,8 +20,10 @@ struct PlanOptions {
   double floor = 0.01;            ///< the part of that sd that does not depend on e [1]
   double spread = 0.05;           ///< relative sd of the capture velocity from impact to impact [1]
   int events = 20;                ///< impacts averaged in one point
-  int impacts = 0;                ///< total number of impacts; 0: as many as the wanted error needs
-  double error = 0.1;             ///< wanted relative standard error of every quantity [1]
+  /// Total number of impacts; 0: as many as the wanted error needs for all quantities that
+  /// `most_planned_impacts` determine so well.
+  int impacts = 0;
+  double error = 0.1;  ///< wanted relative standard error of every quantity [1]
   /// Share of the points that are evenly spaced, to reveal a wrong model [1].
   double checks = 0.25;
 };

@@ -106,6 +106,15 @@ Sentence column_words(const Dataset& dataset) {
   });
 }
 
+/// The entries without repetition, in their order.
+std::vector<std::string> distinct(const std::vector<std::string>& entries) {
+  std::vector<std::string> found;
+  for (const std::string& entry : entries) {
+    if (std::ranges::find(found, entry) == found.end()) found.push_back(entry);
+  }
+  return found;
+}
+
 List plain_list(const std::vector<std::string>& entries) {
   return {{entries.begin(), entries.end()}};
 }
@@ -159,12 +168,12 @@ std::vector<Section> dataset_sections(const Dataset& dataset) {
       shown_section("dataset", "Dataset",
                     {dataset_table(dataset), Paragraph{provenance_sentence(dataset.provenance)}}),
       shown_section("series", "Series", {series_table(dataset)}),
-      shown_section("sources", "Sources", {plain_list(dataset.sources)}),
-      shown_section("warnings", "Warnings", {plain_list(warnings)})};
+      shown_section("warnings", "Warnings", {plain_list(warnings)}),
+      detail_section("sources", "Sources", {plain_list(distinct(dataset.sources))})};
 }
 
-std::string dataset_text(const Dataset& dataset) {
-  return terminal_text(dataset_sections(dataset));
+std::string dataset_text(const Dataset& dataset, Importance least) {
+  return terminal_text(dataset_sections(dataset), least);
 }
 
 }  // namespace recoil

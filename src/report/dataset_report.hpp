@@ -18,6 +18,6 @@ Table series_table(const Dataset& dataset);
 std::vector<Section> dataset_sections(const Dataset& dataset);
 
 /// The output of `recoil check`.
-std::string dataset_text(const Dataset& dataset);
+std::string dataset_text(const Dataset& dataset, Importance least = Importance::detail);
 
 }  // namespace recoil

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/program.hpp"
 #include "core/units.hpp"
@@ -37,31 +39,51 @@ Sentence place_words(const ExperimentPlan& plan, std::size_t dataset, double dia
   return words;
 }
 
+/// Why a quantity does not have the wanted error, and what it takes.
+Sentence unreached_words(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
+  const std::string wanted = fmt::format("{:.3g} %", 100.0 * plan.options.error);
+  const Sentence known =
+      name_of_quantity(plan, quantity) +
+      say(" is known to {}: ", text_of(quantity.error, in_percent(significant(2))));
+  return known + (quantity.impacts
+                      ? say("{} takes {:.0f} impacts in the same proportions.", wanted,
+                            std::ceil(*quantity.impacts))
+                      : say("no number of impacts gives {}, because the constants of the materials "
+                            "are too uncertain.",
+                            wanted));
+}
+
 Paragraph plan_answer(const ExperimentPlan& plan) {
-  const PlannedQuantity* worst = &plan.quantities.front();
+  constexpr std::size_t most_named = 4;
+  std::vector<Sentence> reached, others;
+  double worst = 0.0, worst_reached = 0.0;
   for (const PlannedQuantity& quantity : plan.quantities) {
-    if (quantity.error > worst->error) worst = &quantity;
+    worst = std::max(worst, quantity.error);
+    if (quantity.error > plan.options.error) {
+      others.push_back(unreached_words(plan, quantity));
+    } else {
+      reached.push_back(name_of_quantity(plan, quantity));
+      worst_reached = std::max(worst_reached, quantity.error);
+    }
   }
-  Sentence text = say("{} impacts in {} points determine everything to {} or better", plan.impacts,
-                      plan.points, text_of(worst->error, in_percent(significant(2))));
-  if (plan.reached) {
-    return {text + say(", as wanted ({:.3g} %).", 100.0 * plan.options.error), true};
-  }
-  text += say("; the wanted error was {:.3g} %. The hardest is ", 100.0 * plan.options.error) +
-          name_of_quantity(plan, *worst);
-  text += worst->impacts
-              ? say(": {:.0f} impacts in the same proportions.", std::ceil(*worst->impacts))
-              : Sentence(
-                    ", which no number of impacts determines so well: the constants of the "
-                    "materials are too uncertain.");
+  const bool none = reached.empty();
+  const std::string wanted = fmt::format("{:.3g} %", 100.0 * plan.options.error);
+  Sentence text =
+      say("{} impacts in {} points determine ", plan.impacts, plan.points) +
+      (none || others.empty()        ? Sentence("everything")
+       : reached.size() > most_named ? Sentence("the rest")
+                                     : join(reached, ", ")) +
+      say(" to {} or better", text_of(none ? worst : worst_reached, in_percent(significant(2))));
+  text += none ? say("; the wanted error was {}.", wanted) : say(", as wanted ({}).", wanted);
+  for (std::size_t k = 0; k < std::min(others.size(), most_named); ++k) text += " " + others[k];
   return {text, true};
 }
 
-Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
+Table assumptions(const ExperimentPlan& plan, const std::string& assumed, bool folded) {
   const PlanOptions& options = plan.options;
   std::vector<std::pair<Sentence, Cell>> entries = {{"fit", Sentence(plan.fit)}};
   const std::string adhesion(plan.model.slots[plan.model.slot_adhesion[0]].parameter->name);
-  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+  for (std::size_t d = 0; !folded && d < plan.datasets.size(); ++d) {
     const Dataset& dataset = plan.datasets[d];
     const double reference = plan.model.contacts[d].reference_diameter;
     entries.emplace_back("dataset", say("{}: {} on {}; ", dataset.id, dataset.system.particle.name,
@@ -93,7 +115,39 @@ SizeUnit planned_unit(const ExperimentPlan& plan) {
   return size_unit(diameters);
 }
 
-Table settings_table(const ExperimentPlan& plan) {
+/// Settings in one row of a table: one, or those that only check the model.
+struct ShownSettings {
+  std::vector<const PlannedSetting*> settings;
+
+  int points() const {
+    int sum = 0;
+    for (const PlannedSetting* one : settings) sum += one->points;
+    return sum;
+  }
+};
+
+/// @param folded settings of one diameter with the fewest points share a row if they are many
+std::vector<ShownSettings> rows_of(const ExperimentPlan& plan, bool folded) {
+  constexpr std::size_t many = 4;
+  std::vector<ShownSettings> rows;
+  const auto alike = [](const PlannedSetting& a, const PlannedSetting& b) {
+    return a.dataset == b.dataset && a.diameter == b.diameter && a.points == b.points;
+  };
+  for (const PlannedSetting& setting : plan.settings) {
+    const auto same = std::ranges::count_if(
+        plan.settings, [&](const PlannedSetting& other) { return alike(setting, other); });
+    const auto row = std::ranges::find_if(
+        rows, [&](const ShownSettings& shown) { return alike(*shown.settings.front(), setting); });
+    if (folded && static_cast<std::size_t>(same) >= many && row != rows.end()) {
+      row->settings.push_back(&setting);
+    } else {
+      rows.push_back({{&setting}});
+    }
+  }
+  return rows;
+}
+
+Table settings_table(const ExperimentPlan& plan, bool folded) {
   Table table;
   table.caption =
       say("Number of points of {} impacts each. Expected: mean {e} of the "
@@ -107,16 +161,20 @@ Table settings_table(const ExperimentPlan& plan) {
                    {say("{e}")},
                    {"sd"},
                    {"captured", "%"}};
-  for (const PlannedSetting& setting : plan.settings) {
-    const bool returns = setting.sd > 0.0;
+  for (const ShownSettings& row : rows_of(plan, folded)) {
+    const PlannedSetting& setting = *row.settings.front();
+    const bool one = row.settings.size() == 1;
+    const bool returns = one && setting.sd > 0.0;
     table.rows.push_back(
         {plan.datasets.size() > 1 ? Cell(Sentence(plan.datasets[setting.dataset].id)) : Cell(),
          Sentence(size_text(setting.diameter, planned_unit(plan))),
-         Number{setting.velocity, significant(3)}, whole(setting.points),
-         whole(setting.points * plan.options.events),
+         one ? Cell(Number{setting.velocity, significant(3)})
+             : Cell(say("{} to {}", number(setting.velocity, 3),
+                        number(row.settings.back()->velocity, 3))),
+         whole(row.points()), whole(row.points() * plan.options.events),
          returns ? Cell(Number{setting.restitution, fixed(3)}) : Cell(),
          returns ? Cell(Number{setting.sd, padded(2)}) : Cell(),
-         Number{100.0 * setting.captured, fixed(0)}});
+         one ? Cell(Number{100.0 * setting.captured, fixed(0)}) : Cell()});
   }
   if (plan.datasets.size() == 1) {  // the first cell of a row is its heading
     table.columns.erase(table.columns.begin());
@@ -125,22 +183,43 @@ Table settings_table(const ExperimentPlan& plan) {
   return table;
 }
 
-Table errors_table(const ExperimentPlan& plan) {
+double worst_capture(const ExperimentPlan& plan) {
+  double worst = 0.0;
+  for (const PlannedQuantity& quantity : plan.quantities) {
+    if (!quantity.is_parameter()) worst = std::max(worst, quantity.error);
+  }
+  return worst;
+}
+
+/// @param folded only the worst of many capture velocities
+Table errors_table(const ExperimentPlan& plan, bool folded) {
   Table table;
   table.caption =
       say("Expected standard errors of this plan and of as many points evenly spaced in ln {V} "
-          "above capture; impacts for {:.3g} %: with this plan, evenly spaced, and with a plan for "
-          "this quantity alone",
-          100.0 * plan.options.error);
+          "above capture; impacts for {:.3g} %: with this plan, {}",
+          100.0 * plan.options.error,
+          folded ? "and evenly spaced" : "evenly spaced, and with a plan for this quantity alone");
   table.columns = {{"quantity"},    {"assumed"}, {"unit"},           {"plan", "%"},
                    {"evenly", "%"}, {"impacts"}, {"impacts evenly"}, {"impacts alone"}};
+  if (folded) table.columns.pop_back();
   const Notation two_digits = in_percent(significant(2), "");
+  constexpr std::ptrdiff_t many = 5;
+  const auto captures =
+      std::ranges::count_if(plan.quantities, std::not_fn(&PlannedQuantity::is_parameter));
+  const double worst = worst_capture(plan);
+  bool shown = false;
   for (const PlannedQuantity& quantity : plan.quantities) {
-    table.rows.push_back({name_of_quantity(plan, quantity), Number{quantity.value, significant(4)},
-                          Sentence(quantity.unit), Number{quantity.error, two_digits},
+    Sentence name = name_of_quantity(plan, quantity);
+    if (folded && captures >= many && !quantity.is_parameter()) {
+      if (shown || quantity.error < worst) continue;
+      shown = true;
+      name += say(" (worst of {})", captures);
+    }
+    table.rows.push_back({name, Number{quantity.value, significant(4)}, Sentence(quantity.unit),
+                          Number{quantity.error, two_digits},
                           Number{quantity.plain_error, two_digits}, impacts_cell(quantity.impacts),
-                          impacts_cell(quantity.plain_impacts),
-                          impacts_cell(quantity.alone_impacts)});
+                          impacts_cell(quantity.plain_impacts)});
+    if (!folded) table.rows.back().push_back(impacts_cell(quantity.alone_impacts));
   }
   return table;
 }
@@ -161,7 +240,7 @@ Table learnt_table(const ExperimentPlan& plan) {
   return table;
 }
 
-List limits_of_plan(const ExperimentPlan& plan) {
+List limits_of_plan(const ExperimentPlan& plan, bool folded) {
   std::vector<Validity> all;
   for (const PlannedSetting& setting : plan.settings) {
     const std::vector<Validity> found =
@@ -169,11 +248,18 @@ List limits_of_plan(const ExperimentPlan& plan) {
                         {setting.dataset, setting.diameter, setting.velocity});
     all.insert(all.end(), found.begin(), found.end());
   }
-  const std::vector<std::string> limits = exceeded_limits(all, plan.datasets);
+  constexpr std::size_t most = 2;
+  std::vector<std::string> limits = exceeded_limits(all, plan.datasets);
+  if (folded && limits.size() > most + 1) {
+    const std::string more = fmt::format("{} more: --verbose", limits.size() - most);
+    limits.resize(most);
+    limits.push_back(more);
+  }
   return list_of_sentences({limits.begin(), limits.end()});
 }
 
-std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed) {
+std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed,
+                                   bool folded) {
   Section answer{"plan", "Plan", {}, {plan_answer(plan)}};
   const Sentence efficiency =
       say("the plan has at least {:.0f} % of the efficiency of the optimal plan",
@@ -185,10 +271,12 @@ std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string
                           efficiency + Sentence(" without them.")
                     : Sentence("No points are reserved to check the model (--checks 0); ") +
                           efficiency + Sentence(".")});
-  return {std::move(answer), shown_section("assumed", "Assumed", {assumptions(plan, assumed)}),
-          shown_section("settings", "Points to measure", {settings_table(plan)}),
-          shown_section("errors", "Errors", {errors_table(plan), learnt_table(plan)}),
-          shown_section("limits", "Limits of the model", {limits_of_plan(plan)})};
+  return {std::move(answer),
+          shown_section("assumed", "Assumed", {assumptions(plan, assumed, folded)}),
+          shown_section("settings", "Points to measure", {settings_table(plan, folded)}),
+          shown_section("errors", "Errors", {errors_table(plan, folded)}),
+          detail_section("alone", "Each quantity alone", {learnt_table(plan)}),
+          shown_section("limits", "Limits of the model", {limits_of_plan(plan, folded)})};
 }
 
 std::optional<double> whole_number(const std::optional<double>& value) {
@@ -219,12 +307,12 @@ PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity
 
 }  // namespace
 
-std::string plan_text(const ExperimentPlan& plan, const std::string& assumed) {
-  return terminal_text(plan_sections(plan, assumed));
+std::string plan_text(const ExperimentPlan& plan, const std::string& assumed, Importance least) {
+  return terminal_text(plan_sections(plan, assumed, least == Importance::answer), least);
 }
 
 std::string plan_html(const ExperimentPlan& plan, const std::string& assumed) {
-  Document page = page_of("Plan for " + plan.fit, plan.fit, plan_sections(plan, assumed));
+  Document page = page_of("Plan for " + plan.fit, plan.fit, plan_sections(plan, assumed, false));
   page.heading = "What to measure";
   page.subtitle = page.title;
   page.sections.front().title = "Plan";

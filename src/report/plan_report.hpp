@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "document/document.hpp"
 #include "plan/experiment_plan.hpp"
 
 /// The result of `recoil plan`.
@@ -9,7 +10,8 @@ namespace recoil {
 
 /// The output of `recoil plan`: the answer, the points to measure and the expected errors.
 /// @param assumed source of the values of the parameters
-std::string plan_text(const ExperimentPlan& plan, const std::string& assumed);
+/// @param least answer: settings that only check the model share a row
+std::string plan_text(const ExperimentPlan& plan, const std::string& assumed, Importance least);
 
 std::string plan_html(const ExperimentPlan& plan, const std::string& assumed);
 

@@ -5,12 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "options/option_table.hpp"
 #include "support/workplace.hpp"
 
 namespace {
@@ -366,6 +368,34 @@ TEST(Help, TeachesEveryCommand) {
     EXPECT_EQ(one.status, 0);
     EXPECT_NE(one.out.find(std::string("recoil ") + command), std::string::npos) << one.out;
   }
+}
+
+TEST(Help, FitsOnATerminalAndIsWholeOnRequest) {
+  const Workplace place;
+  std::set<std::string> commands;
+  for (const recoil::OptionRow& row : recoil::option_rows()) {
+    std::istringstream names{std::string(row.commands)};
+    for (std::string name; names >> name;) commands.insert(name);
+  }
+  ASSERT_GE(commands.size(), 17U);
+  const auto check_width = [](const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  };
+  for (const std::string& command : commands) {
+    const std::string brief = place.run({command, "--help"}).out;
+    const std::string whole = place.run({"help", command}).out;
+    check_width(brief);
+    check_width(whole);
+    EXPECT_LE(std::ranges::count(brief, '\n'), 60) << brief;
+    for (const recoil::OptionRow* row : recoil::options_of(command)) {
+      if (row->is_hidden()) continue;
+      EXPECT_NE(brief.find(row->name), std::string::npos) << command << " " << row->name;
+      const std::string_view end = row->meaning.substr(row->meaning.rfind(' ') + 1);
+      EXPECT_NE(whole.find(end), std::string::npos) << command << " " << row->name;
+    }
+  }
+  check_width(place.run({"--help"}).out);
 }
 
 const char* const header =

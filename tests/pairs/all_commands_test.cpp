@@ -7,6 +7,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "made_fits.hpp"
 #include "support/command.hpp"
@@ -68,6 +69,7 @@ class AllCommands : public testing::Test {
     const std::string diameter = fmt::format("{:.6g}", fit.diameter * 1e6);
     for (const std::string& id : fit.datasets) run(fit, {"check", id});
     run_json(fit, "plan", {"plan", "fit.toml", "--impacts", "200"});
+    run(fit, {"plan", "fit.toml", "--error", "0.2"});
     run_json(fit, "simulate",
              {"simulate", "fit.toml", "--velocity", fmt::format("{}", fit.velocity), "--diameter",
               diameter});
@@ -83,6 +85,9 @@ class AllCommands : public testing::Test {
     run_json(fit, "predict", {"predict", "fit.toml", "--sizes", "sizes.csv", "--replicates", "0"});
     run_json(fit, "coverage",
              {"coverage", "fit.toml", "--datasets", "2", "--replicates", "0", "--threads", "1"});
+    run(fit, {"coverage", "fit.toml", "--datasets", "2", "--replicates", "0", "--threads", "1"});
+    run(fit, {"simulate", "fit.toml", "--velocity", fmt::format("{}", fit.velocity), "--diameter",
+              diameter});
     run_json(fit, "diagnosis", {"diagnose", "fit.toml", "--threads", "1", "--out", "diagnosed"});
     run(fit, {"report", "fit.toml", "--threads", "1", "--replicates", "0", "--out", "pages"});
   }
@@ -120,6 +125,23 @@ TEST_F(AllCommands, PrintSoundWords) {
   for (const std::string& name : place_->listing()) {
     if (!name.ends_with(".html") && !name.ends_with(".md")) continue;
     expect_sound_words(place_->read(name), name);
+  }
+}
+
+// 80 columns and two screens of 25 lines; --verbose and --json have more.
+TEST_F(AllCommands, PrintWhatFitsOnATerminal) {
+  constexpr std::ptrdiff_t widest = 80, most_lines = 50;
+  for (const Run& run : runs_) {
+    if (run.words.back() == "--json" || run.outcome.status != 0) continue;
+    const std::string& text = run.outcome.out;
+    const bool verbose = std::ranges::find(run.words, "--verbose") != run.words.end();
+    if (!verbose) EXPECT_LE(std::ranges::count(text, '\n'), most_lines) << run.name() << text;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const auto letters = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });
+      EXPECT_LE(letters, widest) << run.name() << "\n" << line;
+    }
+    EXPECT_EQ(text.find("|---"), std::string::npos) << run.name();
   }
 }
 
