@@ -1,6 +1,6 @@
 // recoil_tables SCHEMAS FOLDER...: writes the JSON Schemas of all results into the folder SCHEMAS,
 // and updates what the code makes in every page of the manual and every Python file of the other
-// folders.
+// folders. The first of these also gets the man page and the completion for bash.
 #include <fmt/format.h>
 
 #include <exception>
@@ -39,6 +39,9 @@ void write_all(const std::vector<std::string>& folders) {
   add_commands(program);
   write_schemas(folders.at(0));
   for (std::size_t i = 1; i < folders.size(); ++i) write_made_parts(program, folders[i]);
+  const std::filesystem::path manual = folders.at(1);
+  write_whole_file(manual / "recoil.1", man_page(program), Replacing::data);
+  write_whole_file(manual / "recoil.bash", bash_completion(program), Replacing::data);
 }
 
 }  // namespace

@@ -312,8 +312,8 @@ const std::vector<MadePart>& parts() {
        }},
       {"commands for fits",
        [](const Program& program) {
-         return commands_table(
-             program, {"fit", "diagnose", "simulate", "report", "figure", "compare", "predict", "export"});
+         return commands_table(program, {"fit", "diagnose", "simulate", "report", "figure",
+                                         "compare", "predict", "export"});
        }},
       {"other commands",
        [](const Program& program) {
@@ -361,7 +361,74 @@ std::string text_of_part(std::string_view name, const Program& program) {
   return {};
 }
 
+/// Text for troff.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '-' ? "\\-" : c == '\\' ? "\\e" : std::string(1, c);
+  return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
+}
+
 }  // namespace
+
+std::string man_page(const Program& program) {
+  std::string out =
+      ".TH RECOIL 1\n.SH NAME\nrecoil \\- fit a model of microsphere impact to measured "
+      "restitution\n"
+      ".SH SYNOPSIS\n.B recoil\n.I COMMAND\n[options]\n.SH COMMANDS\n";
+  for (const Program::CommandText& command : program.commands()) {
+    out += fmt::format(".SS recoil {}\n{}.\n", command.name, roff(capitalised(command.meaning)));
+    for (const OptionRow* row : options_of(command.name)) {
+      if (row->is_hidden()) continue;
+      std::string value = row->is_argument() ? "" : value_words(row->type);
+      std::erase(value, '`');
+      out += fmt::format(".TP\n\\fB{}\\fR {}\n{}\n", roff(row->name), roff(value),
+                         roff(meaning_words(*row)));
+    }
+  }
+  return out +
+         ".SH EXIT STATUS\n0 success, 2 error in the input or on the command line, 3 no usable "
+         "result.\n.SH SEE ALSO\nThe manual: /usr/share/doc/recoil/README.md\n";
+}
+
+std::string bash_completion(const Program& program) {
+  std::string commands, options, words;
+  for (const Program::CommandText& command : program.commands()) {
+    commands += (commands.empty() ? "" : " ") + command.name;
+    std::string names = "--help";
+    for (const OptionRow* row : options_of(command.name)) {
+      if (row->is_hidden() || row->is_argument()) continue;
+      names += fmt::format(" {}", row->name);
+      if (row->type.words.empty() || row->type.is_number()) continue;
+      words += fmt::format("    '{} {}') words='{}' ;;\n", command.name, row->name,
+                           fmt::join(row->type.words, " "));
+    }
+    options += fmt::format("      {}) words='{}' ;;\n", command.name, names);
+  }
+  return fmt::format(
+      R"(# Completion of recoil for bash, made by ./run docs.
+_recoil() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} words=''
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    COMPREPLY=($(compgen -W '{} --help --version' -- "$word"))
+    return
+  fi
+  case "${{COMP_WORDS[1]}} ${{COMP_WORDS[COMP_CWORD-1]}}" in
+    help\ *) words='{}' ;;
+{}  esac
+  if [ -z "$words" ] && [[ $word == -* ]]; then
+    case ${{COMP_WORDS[1]}} in
+{}    esac
+  fi
+  if [ -n "$words" ]; then
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
+  else
+    COMPREPLY=($(compgen -f -- "$word"))
+  fi
+}}
+complete -o filenames -F _recoil recoil
+)",
+      commands, commands, words, options);
+}
 
 std::string with_made_parts(const std::string& text, const std::string& file,
                             const Program& program) {

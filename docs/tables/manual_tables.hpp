@@ -17,4 +17,10 @@ namespace recoil {
 std::string with_made_parts(const std::string& text, const std::string& file,
                             const Program& program);
 
+/// The man page of the program: every command with its options.
+std::string man_page(const Program& program);
+
+/// The completion of commands, options and words for bash.
+std::string bash_completion(const Program& program);
+
 }  // namespace recoil

@@ -20,6 +20,7 @@
 #include "core/interrupt.hpp"
 #include "core/numerics.hpp"
 #include "core/program.hpp"
+#include "core/progress.hpp"
 #include "core/quoting.hpp"
 
 namespace recoil {
@@ -110,6 +111,7 @@ int run_with_stack(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   recoil::open_standard_streams();
   recoil::gsl_errors_are_values();
+  recoil::Progress::show_in_this_process();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
   return recoil::run_with_stack(std::vector<std::string>(argv + 1, argv + argc));
 }

@@ -10,6 +10,7 @@
 
 namespace recoil {
 namespace {
+std::atomic<bool> shown_here{false};
 thread_local bool silent_here = false;
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 
@@ -20,6 +21,8 @@ bool can_redraw() {
 }
 }  // namespace
 
+void Progress::show_in_this_process() { shown_here = true; }
+
 Progress::Silence::Silence(bool silent) : before_(silent_here) { silent_here |= silent; }
 
 Progress::Silence::~Silence() { silent_here = before_; }
@@ -27,7 +30,7 @@ Progress::Silence::~Silence() { silent_here = before_; }
 Progress::Progress(std::string label, std::size_t total, Pace pace)
     : label_(std::move(label)),
       total_(total),
-      silent_(silent_here),
+      silent_(silent_here || !shown_here),
       terminal_(!silent_ && can_redraw()),
       pace_(pace),
       start_(std::chrono::steady_clock::now()),

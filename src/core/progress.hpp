@@ -13,6 +13,9 @@ namespace recoil {
 /// `Pace::first` and then one per `Pace::next`. `advance` may be called from any thread.
 class Progress {
  public:
+  /// Shows progress in this process. A program calls it; without it, the library is silent.
+  static void show_in_this_process();
+
   /// Shows no progress that this thread starts during the lifetime of a `Silence`.
   class Silence {
    public:

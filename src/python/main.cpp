@@ -597,6 +597,7 @@ void bind_pairs(py::module_& module) {
 
 PYBIND11_MODULE(_recoil, module) {
   recoil::gsl_errors_are_values();
+  recoil::Progress::show_in_this_process();
   py::register_exception_translator(&recoil::translate);
   module.attr("__version__") = recoil::version();
   py::module_::import("atexit").attr("register")(py::cpp_function(&recoil::Busy::at_exit));

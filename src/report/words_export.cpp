@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t comment_columns = 90;
+constexpr std::size_t comment_columns = 78;
 
 std::string stock_words(const Approximation& stock) {
   switch (stock.model) {
@@ -127,6 +127,24 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   return out;
 }
 
+/// The values that an engineer copies into another input; empty if they are a table.
+std::string copied_words(ExportTarget target, const ExportJob& job) {
+  const ContactForce& force = job.force;
+  if (job.form == ExportForm::lookup) return "";
+  if (job.form != ExportForm::approximation) {
+    return fmt::format(
+        "To copy: C_H = {:.5g} s/m, C_A = {:.5g} s/m, f0 = {:.5g} N/m, K = {:.5g} Pa.",
+        force.hertz_damping, force.adhesion_damping, force.adhesion_force, force.stiffness);
+  }
+  const bool constant = job.stock->model == StockModel::constant_restitution;
+  return fmt::format("To copy: {} = {:.5g}{}, K = {:.5g} Pa, for {}.",
+                     !constant                          ? "D"
+                     : target == ExportTarget::liggghts ? "coefficientRestitution"
+                                                        : "e",
+                     job.stock->value, constant ? "" : " N s m^(-3/2)", force.stiffness,
+                     range_words(job.impact.request));
+}
+
 }  // namespace
 
 std::vector<std::string> export_heading(ExportTarget target, const ExportSource& source,
@@ -134,6 +152,9 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
   std::vector<std::string> lines;
   wrap_into(lines, fmt::format("recoil {}: the impact of {} for {}", version(), source.fit,
                                to_string(target)));
+  if (const std::string copied = copied_words(target, job); !copied.empty()) {
+    wrap_into(lines, copied);
+  }
   wrap_into(lines,
             fmt::format("Fitted to {} ({}). {}", source.dataset, to_string(source.provenance),
                         provenance_sentence(source.provenance)));

@@ -63,10 +63,11 @@ add_executable(hits hits.cpp)
 target_link_libraries(hits PRIVATE recoil::library)
 add_executable(analyses analyses.cpp)
 target_link_libraries(analyses PRIVATE recoil::library)
+target_include_directories(analyses BEFORE PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 )");
   // a straight line through 1, 3, 5 at 0, 1, 2
   place.write("fits.cpp", R"(#include <cstdio>
-#include "uncertainty/estimator.hpp"
+#include "recoil/uncertainty/estimator.hpp"
 int main() {
   recoil::LeastSquaresProblem problem;
   problem.residual_count = 3;
@@ -85,16 +86,18 @@ int main() {
 }
 )");
   place.write("hits.cpp", R"(#include <cstdio>
-#include "impact/impact.hpp"
+#include "recoil/impact/impact.hpp"
 int main() {
   const auto impact = recoil::simulate_impact({0.1, 0.0, 0.0, 0.0});
   std::printf("%.6f\n", impact.restitution_squared);
 }
 )");
+  place.write("data/dataset.hpp", "struct Mine {};\n");  // hides none of ours
   place.write("analyses.cpp", R"(#include <cstdio>
-#include "analysis/analysis.hpp"
-#include "diagnosis/diagnose.hpp"
-#include "report/result_json.hpp"
+#include "data/dataset.hpp"
+#include "recoil/analysis/analysis.hpp"
+#include "recoil/diagnosis/diagnose.hpp"
+#include "recoil/report/result_json.hpp"
 int main(int, char** arguments) {
   recoil::AnalysisOptions options;
   options.replicates = 0;
@@ -126,6 +129,7 @@ int main(int, char** arguments) {
             0);
   const Outcome analysed = run_command({place / "build/analyses", "mine/fit.toml"}, place.path());
   ASSERT_EQ(analysed.status, 0) << analysed.err;
+  EXPECT_EQ(analysed.err, "") << "a library is silent";
   const recoil::Json both = recoil::Json::parse(analysed.out);
   EXPECT_TRUE(both[0]["parameters"]["C_H"]["value"].is_number());
   EXPECT_TRUE(both[1]["verdict"].is_string());
@@ -179,7 +183,24 @@ TEST(Install, ADebianPackageHoldsTheSame) {
   EXPECT_NE(unpacked.out.find("libgsl"), std::string::npos) << unpacked.out;
   EXPECT_NE(unpacked.out.find("Maintainer: "), std::string::npos) << unpacked.out;
   EXPECT_EQ(unpacked.out.find("@localhost"), std::string::npos) << "nobody reads mail there";
-  EXPECT_FALSE(fs::exists(place / "there/usr/include"));  // that is for who builds it
+  EXPECT_FALSE(fs::exists(place / "there/usr/include"));  // that is in librecoil-dev
+  EXPECT_EQ(
+      run_command({"sh", "-c", "dpkg-deb -x package/librecoil-dev_*.deb dev"}, place.path()).status,
+      0);
+  EXPECT_TRUE(fs::exists(place / "dev/usr/include/recoil/analysis/analysis.hpp"));
+  EXPECT_FALSE(fs::exists(place / "dev/usr/bin"));
+  const Outcome flags = run_command(
+      {"sh", "-c",
+       "PKG_CONFIG_PATH=$(dirname $(find dev -name recoil.pc)) pkg-config --libs recoil"},
+      place.path());
+  EXPECT_NE(flags.out.find("-lrecoil_library"), std::string::npos) << flags.err;
+  const Outcome completed = run_command(
+      {"bash", "-c",
+       ". there/usr/share/bash-completion/completions/recoil; COMP_WORDS=(recoil export --to la); "
+       "COMP_CWORD=3; _recoil; echo ${COMPREPLY[*]}"},
+      place.path());
+  EXPECT_EQ(completed.out, "lammps\n") << completed.err;
+  EXPECT_TRUE(fs::exists(place / "there/usr/share/man/man1/recoil.1"));
   expect_a_whole_installation(place / "there/usr");
 }
 

@@ -16,6 +16,7 @@ using std::chrono::milliseconds;
 
 /// What 5 steps print into a pipe.
 std::string printed(milliseconds between_steps, Progress::Pace pace) {
+  Progress::show_in_this_process();
   testing::internal::CaptureStderr();
   {
     Progress progress("refits", 5, pace);
@@ -54,6 +55,7 @@ TEST(Progress, IsSilentWhereASilenceLives) {
 
 /// What 5 steps print on a terminal of this kind.
 std::string shown(const char* kind) {
+  Progress::show_in_this_process();
   int ends[2];
   if (openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) != 0) return "no terminal";
   const int before = dup(STDERR_FILENO);

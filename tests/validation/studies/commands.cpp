@@ -568,5 +568,6 @@ int run_study_program(const Words& words) {
 }  // namespace recoil
 
 int main(int argc, char** argv) {
+  recoil::Progress::show_in_this_process();
   return recoil::run_study_program(std::vector<std::string>(argv + 1, argv + argc));
 }
