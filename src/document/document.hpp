@@ -89,7 +89,13 @@ struct Remark {
   Sentence text;
 };
 
-struct Block : std::variant<Paragraph, List, Table, Figures, Banner, Remark> {
+/// A formula between paragraphs.
+struct Formula {
+  std::string mathml;  ///< the content of a math element; empty: no formula
+  std::string text;    ///< the same in one line of text
+};
+
+struct Block : std::variant<Paragraph, List, Table, Figures, Banner, Remark, Formula> {
   using variant::variant;
   const variant& content() const { return *this; }
   variant& content() { return *this; }

@@ -255,6 +255,11 @@ struct HtmlBlock {
         "<span>{1}</span></aside>\n",
         label, html_of(banner.text));
   }
+  std::string operator()(const Formula& formula) const {
+    return fmt::format(
+        "<p class=\"formula\"><math display=\"block\" alttext=\"{}\">{}</math></p>\n",
+        escape_html(formula.text), formula.mathml);
+  }
   std::string operator()(const Remark& remark) const {
     return fmt::format(
         "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> {}</p>\n",

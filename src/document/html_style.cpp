@@ -30,6 +30,7 @@ h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .25rem; letter-spacing: 
 h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.5rem 0 .75rem; padding-top: .75rem;
   border-top: 1px solid var(--line); }
 p, ul { max-width: 48rem; }
+.formula { overflow-x: auto; }
 .subtitle { color: var(--quiet); margin: 0 0 1rem; }
 .summary { font-size: 1.08rem; }
 sub { line-height: 0; }

@@ -199,6 +199,9 @@ struct TerminalBlock {
     return paragraph_text(named ? text : fmt::format("{}: {}", banner.label, text), margin,
                           columns);
   }
+  std::string operator()(const Formula& formula) const {
+    return paragraph_text(formula.text, margin, columns);
+  }
   std::string operator()(const Remark& remark) const {
     return paragraph_text(Sentence(remark.sign + " ") + remark.text, margin, columns);
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "data/text.hpp"
 #include "document/html.hpp"
 #include "report/comparison_report.hpp"
@@ -251,6 +252,59 @@ Section inputs_section(const Analysis& a) {
   return detail_section("inputs", "Data, model and method", std::move(blocks));
 }
 
+/// The equation of motion as MathML (equation 5 of Li, Dunn & Brach 1999, for the law "ring").
+Formula equation_of(const Analysis& a) {
+  const bool ring = a.fitted.model.adhesion == AdhesionLaw::ring;
+  const std::string adhesion =
+      ring ? "<mn>2</mn><mi>π</mi><mi>a</mi><msub><mi>f</mi><mn>0</mn></msub>"
+             "<mo>(</mo><mn>1</mn><mo>+</mo><msub><mi>C</mi><mi>A</mi></msub><mi>S</mi><mo>)</mo>"
+           : "<msub><mi>F</mi><mi>adhesion</mi></msub>";
+  const bool other_loss = dry_loss_mechanism(a.spec.loss) != nullptr;
+  const std::string loss =
+      other_loss ? "<mo>−</mo><msub><mi>F</mi><mi>loss</mi></msub>"
+                 : "<mo>(</mo><mn>1</mn><mo>+</mo><msub><mi>C</mi><mi>H</mi></msub><mover>"
+                   "<mi>n</mi><mo>˙</mo></mover><mo>)</mo>";
+  const bool adheres = adheres_anywhere(a.fitted.model);
+  return {
+      "<mrow><mi>m</mi><mover><mi>n</mi><mo>¨</mo></mover><mo>=</mo><mo>−</mo>"
+      "<msqrt><mi>r</mi></msqrt><mi>K</mi><msup><mi>n</mi><mrow><mn>3</mn><mo>/</mo>"
+      "<mn>2</mn></mrow></msup>" +
+          loss + (adheres ? "<mo>+</mo>" + adhesion : "") + "</mrow>",
+      fmt::format("m n'' = -sqrt(r) K n^(3/2) {}{}", other_loss ? "- loss" : "(1 + C_H n')",
+                  adheres ? " + adhesion" : "")};
+}
+
+/// What a reader needs who has only this page: the equation, the data, the program, how to cite.
+Section citation_section(const Analysis& a) {
+  const auto captured = std::ranges::count_if(a.fitted.data.points, &Observation::censored);
+  std::vector<std::pair<Sentence, Cell>> entries = {
+      {"program", Sentence("recoil " + version())},
+      {"date", Sentence(today())},
+      {"points", say("{}, {} with captured spheres only", a.fitted.data.points.size(), captured)}};
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const ImpactSystem& system = a.datasets[k].system;
+    entries.emplace_back(say("data {}", a.datasets[k].id),
+                         Sentence("SHA-256 " + a.datasets[k].sha256));
+    if (!adheres_anywhere(a.fitted.model)) continue;
+    entries.emplace_back(
+        say("{f0} of {}", a.datasets[k].id),
+        a.fitted.model.slots[a.fitted.model.slot_adhesion[k]].free ? Sentence("fitted")
+        : system.adhesion_force_f0 ? Sentence("stated with the data")
+        : system.adhesion_energy   ? Sentence("from the stated adhesion energy")
+        : system.particle.surface_energy && system.surface.surface_energy
+            ? Sentence("from the stated surface energies (equations 6 to 12)")
+            : Sentence("from the elastic constants by Gilman's estimate (equations 6 to 12)"));
+  }
+  entries.emplace_back(
+      "to cite",
+      say("Li, X., Dunn, P. F. & Brach, R. M. (1999). J. Aerosol Sci. 30, 439-449 (the model); "
+          "the sources below (data); recoil {} (analysis).",
+          version()));
+  return detail_section(
+      "citation", "Equation, data and citation",
+      {equation_of(a), Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)});
+}
+
 Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
@@ -299,13 +353,26 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     sections.push_back(shown_section("calibrations", "Two points and all points",
                                      {two_point_table(a, a.uncertainty.two_point.front())}));
   }
-  if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
+  if (diagnosis != nullptr)
+    sections.push_back(
+        diagnosis_summary(*diagnosis, diagnosis_page.empty() ? "" : "#diagnosis-causes"));
   sections.push_back(shown_section("warning", "", first_warning(warnings)));
   sections.push_back(sizes_section(a, std::move(panels)));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));
   if (!warnings.empty()) warnings.erase(warnings.begin());  // the answer shows it
   sections.push_back(warnings_section(a, std::move(warnings)));
+  if (diagnosis != nullptr && !diagnosis_page.empty()) {  // a page may travel alone
+    for (Section& section : diagnosis_sections(*diagnosis)) {
+      if (section.id == "answer") continue;
+      section.title = section.title.empty() ? Sentence("Diagnosis: what it compares")
+                                            : Sentence("Diagnosis: ") + section.title;
+      section.id = "diagnosis-" + section.id;
+      section.importance = Importance::detail;
+      sections.push_back(std::move(section));
+    }
+  }
+  sections.push_back(citation_section(a));
   sections.push_back(inputs_section(a));
   return sections;
 }

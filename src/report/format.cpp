@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <set>
 
 #include "core/program.hpp"
@@ -53,6 +55,15 @@ std::string diameter_words(double diameter) { return plain_text(diameter_sentenc
 Sentence diameter_sentence(double diameter) {
   return diameter < 1e-3 ? say("{:.3g} {um}", diameter / units::um)
                          : say("{:.3g} mm", diameter / 1e-3);
+}
+
+std::string today() {
+  const char* const stated = std::getenv("SOURCE_DATE_EPOCH");
+  const std::time_t now =
+      stated == nullptr ? std::time(nullptr) : static_cast<std::time_t>(std::atoll(stated));
+  std::tm date{};
+  gmtime_r(&now, &date);
+  return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
 }
 
 std::string p_words(double p) { return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p); }

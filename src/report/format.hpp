@@ -53,6 +53,9 @@ constexpr const Entry& phrase_for(const Entry (&entries)[Count], decltype(Entry:
                        [&](const Entry& entry) { return entry.value == value; });
 }
 
+/// The date in UTC, that of SOURCE_DATE_EPOCH if it is set: "2026-01-31".
+std::string today();
+
 /// "p = 0.03", "p < 1e-6".
 std::string p_words(double p);
 

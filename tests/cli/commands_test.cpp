@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -197,6 +198,26 @@ TEST(Report, WritesTheSameBytesAtAnyThreadCount) {
     ++compared;
   }
   EXPECT_GE(compared, 10);
+  // A page that travels alone: whole diagnosis, equation, hash, and no link to a file beside it.
+  const std::string page = place.read("free/fit.html");
+  const auto fit = nlohmann::json::parse(place.read("free/fit/fit.json"));
+  EXPECT_NE(page.find(fit["dataset"]["sha256"].get<std::string>()), std::string::npos);
+  EXPECT_NE(page.find("<math "), std::string::npos);
+  const std::regex reference("href=\"([^\"]*)\"");
+  for (std::sregex_iterator one(page.begin(), page.end(), reference), end; one != end; ++one) {
+    const std::string target = (*one)[1];
+    if (target.starts_with("#")) {
+      EXPECT_NE(page.find("id=\"" + target.substr(1) + "\""), std::string::npos) << target;
+    } else {
+      EXPECT_TRUE(target.starts_with("http") || target.starts_with("data:")) << target;
+    }
+  }
+  const auto diagnosis = nlohmann::json::parse(place.read("free/fit/diagnosis.json"));
+  for (const auto& candidate : diagnosis["candidates"]) {
+    std::string words = candidate["id"];
+    std::ranges::replace(words, '_', ' ');
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
 }
 
 TEST(AtOnce, DoesAllOfItAndTellsOfWhatFailed) {

@@ -86,6 +86,7 @@ struct MarkdownBlock {
   std::string operator()(const Banner& banner) const {
     return fmt::format("> **{}**: {}\n\n", escaped(banner.label), markdown_of(banner.text));
   }
+  std::string operator()(const Formula& formula) const { return formula.text + "\n\n"; }
   std::string operator()(const Remark& remark) const {
     return fmt::format("{} {}\n\n", remark.sign, markdown_of(remark.text));
   }
