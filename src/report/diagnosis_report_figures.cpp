@@ -16,7 +16,7 @@ namespace recoil {
 namespace {
 
 constexpr int curve_points = 80;
-constexpr double largest_z = 6.0;  // at the ends of the colour scale
+constexpr double largest_z = 6.0;  // most at the ends of the colour scale
 
 std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
   return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
@@ -110,9 +110,12 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   plot::Plot shown;
   shown.x = velocity_axis_of(deviations, 0.06);
   shown.y = vertical_axis(d, deviations, one_size);
+  double end = 2.0;  // of the colour scale
+  for (const double z : deviations.in_sd)
+    end = std::max(end, std::min(std::ceil(std::abs(z)), largest_z));
   shown.colours =
       plot::ColourScale{"(e - e_model) / sd",
-                        {-largest_z, largest_z},
+                        {-end, end},
                         {{-1.0, plot::blue}, {0.0, "#EEEEEE"}, {1.0, plot::vermillion}}};
   if (one_size) {
     shown.layers.push_back(plot::Rule{.vertical = false, .at = 0.0, .stroke = {plot::ink, 1.0}});
