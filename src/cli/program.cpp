@@ -32,14 +32,14 @@ constexpr std::size_t meanings_from = 28;  // column of the meanings in a help
 /// wrapped.
 std::string wrapped_line(std::string line) {
   const std::string_view words = std::string_view(line).substr(line.find_first_not_of(' '));
-  const std::size_t indent = line.size() - words.size();
+  const std::size_t depth = line.size() - words.size();
   const bool command = words.starts_with("recoil ") || words.starts_with("--");
   std::string out;
   while (line.size() > terminal_columns) {
     const std::size_t cut = line.rfind(' ', terminal_columns - (command ? 2 : 0));
-    if (cut == std::string::npos || cut <= indent + 4) break;
+    if (cut == std::string::npos || cut <= depth + 4) break;
     out += line.substr(0, cut) + (command ? " \\\n" : "\n");
-    line = std::string(indent + 4, ' ') + line.substr(cut + 1);
+    line = std::string(depth + 4, ' ') + line.substr(cut + 1);
   }
   return out + line;
 }

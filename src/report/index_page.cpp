@@ -123,6 +123,44 @@ Blocks verdict_of(const IndexEntry& entry, const FitFile& fit) {
   return {Remark{to_string(verdict), sign_of(verdict), text}};
 }
 
+/// All fits, one in a row.
+Table fits_table(const std::vector<IndexEntry>& entries, const std::vector<FitFile>& fits) {
+  Table table;
+  table.compact = true;
+  table.columns = {{"fit"},
+                   {"points are", "", true},
+                   {"points"},
+                   {"model", "", true},
+                   {say("{V*}"), "m/s"},
+                   {symbol("C_H"), "s/m"},
+                   {symbol("C_A"), "s/m"}};
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const FitFile& fit = fits[i];
+    Cell capture;  // of the middle size
+    const auto& captures = fit.derived.capture_velocity;
+    if (!captures.empty()) {
+      if (const auto& middle = captures[captures.size() / 2]; middle.value.value) {
+        capture = say("{} at {}", number(*middle.value.value, 3),
+                      diameter_sentence(middle.diameter_um.value_or(NAN) * units::um));
+      }
+    }
+    const auto value = [&](std::string_view label) -> Cell {
+      for (const auto& [name, parameter] : fit.parameters) {
+        if (name == label && parameter.free && parameter.value.value) {
+          return Number{*parameter.value.value, significant(3)};
+        }
+      }
+      return {};
+    };
+    const ModelVerdict verdict = fit.model_verdict.verdict;
+    table.rows.push_back({link(fit.fit.id, entries[i].page), Sentence(provenances_of(fit.datasets)),
+                          whole(fit.dataset.points),
+                          Sentence(sign_of(verdict) + (" " + words_of(to_string(verdict)))),
+                          capture, value("C_H"), value("C_A")});
+  }
+  return table;
+}
+
 Section card_of(const IndexEntry& entry, const FitFile& fit) {
   const std::string title = fit.datasets.size() == 1 ? fit.datasets.front().title : "";
   Section card{fit.fit.id,
@@ -176,11 +214,13 @@ Document index_document(const std::vector<IndexEntry>& entries,
           : say("One card per fit: verdict, capture velocity {V*} and fitted parameters.")}};
   if (!others.empty())
     page.foreword.emplace_back(Paragraph{say("Also here: {}.", join(others, ", "))});
+  std::vector<FitFile> fits;
   for (const IndexEntry& entry : entries) {
-    const auto fit = contents_of<FitFile>(entry.page, entry.fit_json, "fit.json");
-    add_banners(fit, page.foreword);
-    page.sections.push_back(card_of(entry, fit));
+    fits.push_back(contents_of<FitFile>(entry.page, entry.fit_json, "fit.json"));
+    add_banners(fits.back(), page.foreword);
+    page.sections.push_back(card_of(entry, fits.back()));
   }
+  if (fits.size() > 1) page.foreword.emplace_back(fits_table(entries, fits));
   return page;
 }
 

@@ -51,7 +51,10 @@ TEST(Index, HasACardPerFit) {
     EXPECT_EQ(figures_of(card).size(), 1U);
     EXPECT_EQ(support::tables_of(card).size(), 1U);
   }
-  EXPECT_EQ(index.foreword.size(), 3U) << "an introduction and banners for two provenances";
+  ASSERT_EQ(index.foreword.size(), 4U) << "an introduction, banners for two provenances, all fits";
+  const Table& fits = std::get<Table>(index.foreword.back().content());
+  ASSERT_EQ(fits.rows.size(), 7U);
+  EXPECT_EQ(plain_text(words_of_cell(fits.rows[6].front())), ids[6]);
   EXPECT_NO_THROW(html_page(index_document({})));
 }
 
