@@ -154,7 +154,7 @@ overwrites points only with --replace.
     --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete
   recoil import bounces.wav --format recording --into datasets/ball4 --like datasets/ball
   recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \
-    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run)",
+    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um)",
       run_import);
 }
 

@@ -133,7 +133,7 @@ import.
 
   recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9
   recoil init my-spheres --points measured.csv --diameter 5 \
-    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 \
+    --particle material=latex,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 \
     --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28)",
                   run_init);
 }

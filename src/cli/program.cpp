@@ -88,8 +88,7 @@ class HelpFormatter : public CLI::Formatter {
     if (in_full || std::ranges::count(text, '\n') <= most_lines) return text;
     brief_ = true;
     return Formatter::make_help(app, name, mode) +
-           fmt::format("\nAll that there is to say of every option: recoil help {}\n",
-                       app->get_name());
+           fmt::format("Examples, and all of every option: recoil help {}\n", app->get_name());
   }
   std::string make_option(const CLI::Option* option, bool positional) const override {
     std::string name = make_option_name(option, positional);
@@ -104,7 +103,8 @@ class HelpFormatter : public CLI::Formatter {
     return wrapped_paragraphs(app->get_description());
   }
   std::string make_footer(const CLI::App* app) const override {
-    return wrapped_paragraphs(app->get_footer());
+    const std::string footer = app->get_footer();  // behind an empty line: examples
+    return wrapped_paragraphs(brief_ ? footer.substr(0, footer.find("\n\n")) : footer);
   }
 
  private:
