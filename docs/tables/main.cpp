@@ -39,9 +39,13 @@ void write_all(const std::vector<std::string>& folders) {
   add_commands(program);
   write_schemas(folders.at(0));
   for (std::size_t i = 1; i < folders.size(); ++i) write_made_parts(program, folders[i]);
-  const std::filesystem::path manual = folders.at(1);
-  write_whole_file(manual / "recoil.1", man_page(program), Replacing::data);
-  write_whole_file(manual / "recoil.bash", bash_completion(program), Replacing::data);
+  for (const auto& [name, text] : {std::pair("recoil.1", man_page(program)),
+                                   std::pair("recoil.bash", bash_completion(program))}) {
+    const std::filesystem::path file = std::filesystem::path(folders.at(1)) / name;
+    if (std::filesystem::exists(file) && read_text_file(file) == text) continue;
+    write_whole_file(file, text, Replacing::data);
+    print_text("wrote {}\n", file.string());
+  }
 }
 
 }  // namespace
