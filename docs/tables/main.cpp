@@ -39,6 +39,7 @@ void write_all(const std::vector<std::string>& folders) {
   add_commands(program);
   write_schemas(folders.at(0));
   for (std::size_t i = 1; i < folders.size(); ++i) write_made_parts(program, folders[i]);
+  if (folders.size() < 2) return;
   for (const auto& [name, text] : {std::pair("recoil.1", man_page(program)),
                                    std::pair("recoil.bash", bash_completion(program))}) {
     const std::filesystem::path file = std::filesystem::path(folders.at(1)) / name;
