@@ -123,7 +123,7 @@ void run_import(const GivenOptions& given) {
   const bool adhesion = result.dataset.system.adhesion_energy.value_or(1.0) > 0.0;
   print_summary(result.dataset, adhesion);
   print_text("{}", dataset_text(result.dataset, Importance::answer));
-  for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
+  for (const ImportNote& note : result.notes) print_note(note_sentence(note));
   print_text("{}: written\n", request.into.string());
   const std::filesystem::path fit_file = request.into / "fit.toml";
   std::error_code failed;

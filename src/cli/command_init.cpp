@@ -116,9 +116,9 @@ void run_init(const GivenOptions& given) {
                        "points.csv and their provenance to datapackage.json"
                      : ""));
   for (const DatasetWarning& warning : result.dataset.warnings) {
-    print_line("note: " + warning_sentence(warning));
+    print_note(warning_sentence(warning));
   }
-  for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
+  for (const ImportNote& note : result.notes) print_note(note_sentence(note));
   print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
              folder.string());
 }

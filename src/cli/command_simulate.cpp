@@ -256,9 +256,8 @@ void simulate(const GivenOptions& given) {
   }
   const ImpactConditions start = conditions_at(model, model.initial(), d, at.diameter, at.velocity);
   print_line("parameters: " +
-             (parameters.empty()
-                  ? "initial values of the fit file (--parameters takes fitted ones)"
-                  : origin_words(*fitted, parameters)));
+             (parameters.empty() ? "initial values of the fit file (--parameters takes fitted ones)"
+                                 : origin_words(*fitted, parameters)));
   print_text("  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n", start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);

@@ -1,7 +1,9 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -14,6 +16,11 @@ namespace recoil {
 namespace fs = std::filesystem;
 
 void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
+
+void print_note(const std::string& words) {
+  const bool wraps = isatty(STDOUT_FILENO) == 1 || std::getenv("COLUMNS") != nullptr;
+  print_text("note: {}\n", wraps ? wrap(words, terminal_columns - 6, 2) : words);
+}
 
 void require_range(const std::vector<double>& velocity) {
   if (velocity[0] < velocity[1]) return;

@@ -62,6 +62,9 @@ void require_range(const std::vector<double>& velocity);
 /// Prints text, wrapped to the width of the terminal.
 void print_line(const std::string& words);
 
+/// Prints "note: " and `words`, in one line into a pipe.
+void print_note(const std::string& words);
+
 /// The shard of a command whose pieces several processes can share.
 class ShardOfCommand {
  public:

@@ -52,6 +52,9 @@ Notation beside(double value, double error) {
   const double largest = std::max(std::abs(value), error);
   const int exponent = largest < 1e-4 || largest >= 1e6 ? written_exponent(largest, 2) : 0;
   Notation notation = fixed(std::clamp(exponent + 1 - written_exponent(error, 2), 0, 12));
+  notation.write = [](double number, int n) {
+    return number == 0.0 ? "0" : fmt::format("{:.{}f}", number, n);
+  };
   if (exponent == 0) return notation;
   notation.scale = std::pow(10.0, -exponent);
   notation.suffix = fmt::format("e{}", exponent);

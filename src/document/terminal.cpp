@@ -210,7 +210,7 @@ struct TerminalBlock {
 }  // namespace
 
 std::size_t output_columns() {
-  constexpr std::size_t fewest = 60, most = 100;
+  constexpr std::size_t fewest = 60;
   winsize window{};
   std::size_t columns = 0;
   if (const char* const stated = std::getenv("COLUMNS")) {
@@ -218,7 +218,7 @@ std::size_t output_columns() {
   } else if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0) {
     columns = window.ws_col;
   }
-  return columns == 0 ? terminal_columns : std::clamp(columns, fewest, most);
+  return columns == 0 ? most_columns : std::clamp(columns, fewest, most_columns);
 }
 
 std::vector<std::string> lines_of(std::string_view text) {

@@ -11,9 +11,10 @@
 namespace recoil {
 
 inline constexpr std::size_t terminal_columns = 80;
+inline constexpr std::size_t most_columns = 100;  ///< of a wide terminal, and of a pipe
 
 /// The width of standard output: that of the variable COLUMNS or of the terminal, limited to 60 to
-/// 100; otherwise `terminal_columns`.
+/// `most_columns`, which is also that of a pipe.
 std::size_t output_columns();
 
 /// Wraps `text` at spaces into lines of at most `width` code points. All lines but the first are

@@ -30,7 +30,7 @@ Document diagnosis_document(const Diagnosis& diagnosis);
 
 /// The output of `recoil diagnose`: the answer, or the answer with the details.
 std::string diagnosis_text(const Diagnosis& diagnosis, Importance least,
-                           std::size_t columns = terminal_columns);
+                           std::size_t columns = most_columns);
 
 std::string diagnosis_html(const Diagnosis& diagnosis);
 

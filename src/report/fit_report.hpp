@@ -80,7 +80,7 @@ Document fit_document(const Analysis& analysis, const Diagnosis* diagnosis = nul
 
 /// The output of `recoil fit`: the answer in at most 25 lines, or the answer with the details.
 std::string fit_text(const Analysis& analysis, Importance least,
-                     std::size_t columns = terminal_columns);
+                     std::size_t columns = most_columns);
 
 /// The page as one self-contained file.
 /// @throws ComputationError if the fit is not usable

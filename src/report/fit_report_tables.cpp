@@ -148,13 +148,13 @@ Table parameters_table(const Analysis& a) {
     const std::string remark = flat ? "no point depends on it" : remark_of(f, s, interval);
     Cell ends = interval_cell(
         interval, error > 0.0 ? beside(acting_value(f.model, f.theta, s), error) : significant(3));
-    if (interval.available()) {
-      ends = words_of_cell(ends) + Sentence(", " + words_of(intervals_of(a, s).recommended));
-    }
     if (!remark.empty()) {
       ends = std::holds_alternative<std::monostate>(ends)
                  ? Sentence(remark)
                  : words_of_cell(ends) + Sentence(", " + remark);
+    }
+    if (interval.available()) {
+      ends = words_of_cell(ends) + Sentence(", " + words_of(intervals_of(a, s).recommended));
     }
     table.rows.push_back(
         {label_with_unit(a, s),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <regex>
 #include <set>
@@ -48,6 +49,7 @@ class AllCommands : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     place_ = new TemporaryFolder;
+    setenv("COLUMNS", "80", 1);
     for (const MadeFit& fit : pairs::write_made_fits(*place_)) run_all(fit);
   }
   static void TearDownTestSuite() { delete place_; }

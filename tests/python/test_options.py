@@ -26,7 +26,7 @@ def test_every_option_is_an_argument_with_a_meaning(name):
 
 
 def test_defaults_are_those_of_the_help(command):
-    told = " ".join(command("pair", "--help").out.split())
+    told = " ".join(command("help", "pair").out.split())
     for name, argument in inspect.signature(recoil.pair).parameters.items():
         if isinstance(argument.default, (int, float)) and argument.default is not False:
             option = name.replace("_", "-")
