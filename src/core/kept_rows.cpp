@@ -48,7 +48,7 @@ std::optional<Json> head_in(std::istream& in) {
 /// Adds the row of one line, "[7,ROW]". @return whether the line is one
 bool add_row(std::string_view line, Rows& rows) {
   if (line.size() < 4 || line.front() != '[' || line.back() != ']') return false;
-  std::size_t piece = 0;
+  std::uint64_t piece = 0;
   const char* const end = line.data() + line.size();
   const auto number = std::from_chars(line.data() + 1, end, piece);
   if (number.ec != std::errc{} || *number.ptr != ',') return false;
@@ -124,7 +124,7 @@ KeptRows::KeptRows(std::filesystem::path file, std::string key, KeepingPace pace
   if (std::optional<Rows> rows = read_rows(file_)) rows_ = std::move(*rows);
 }
 
-std::optional<Json> KeptRows::find(std::size_t piece) const {
+std::optional<Json> KeptRows::find(std::uint64_t piece) const {
   std::string text;
   {
     const std::lock_guard lock(mutex_);
@@ -136,12 +136,12 @@ std::optional<Json> KeptRows::find(std::size_t piece) const {
   return row.is_discarded() ? std::nullopt : std::optional<Json>(std::move(row));
 }
 
-bool KeptRows::has(std::size_t piece) const {
+bool KeptRows::has(std::uint64_t piece) const {
   const std::lock_guard lock(mutex_);
   return rows_.contains(piece);
 }
 
-void KeptRows::put(std::size_t piece, const Json& row) {
+void KeptRows::put(std::uint64_t piece, const Json& row) {
   end_if_called_off();
   std::string text = json_line(row);
   const std::lock_guard lock(mutex_);
@@ -178,9 +178,9 @@ std::size_t KeptRows::size() const {
   return rows_.size();
 }
 
-std::vector<std::size_t> KeptRows::pieces() const {
+std::vector<std::uint64_t> KeptRows::pieces() const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::size_t> numbers;
+  std::vector<std::uint64_t> numbers;
   for (const auto& [piece, row] : rows_) numbers.push_back(piece);
   return numbers;
 }

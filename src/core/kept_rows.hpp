@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -19,7 +20,7 @@
 namespace recoil {
 
 /// The rows of a file by the number of their piece. Each row is JSON on one line.
-using Rows = std::map<std::size_t, std::string>;
+using Rows = std::map<std::uint64_t, std::string>;
 
 /// Writes a file of rows as a whole. Its first line is the object `head` with the added keys "rows"
 /// (their number), "bytes" and "sha256". Every further line is one row, [piece, row].
@@ -75,12 +76,12 @@ class KeptRows {
                     KeepingPace pace = KeepingPace());
 
   /// The row of `piece`; nullopt if that piece is not finished.
-  std::optional<Json> find(std::size_t piece) const;
-  bool has(std::size_t piece) const;
+  std::optional<Json> find(std::uint64_t piece) const;
+  bool has(std::uint64_t piece) const;
 
   /// Adds a row, and writes the file if `KeepingPace` says so.
   /// @throws CalledOff if the work was called off, because its result may then be incomplete
-  void put(std::size_t piece, const Json& row);
+  void put(std::uint64_t piece, const Json& row);
 
   /// Adds the rows of another `file`, except for pieces that have a row already.
   void add(Rows rows, const std::filesystem::path& file);
@@ -93,7 +94,7 @@ class KeptRows {
 
   std::size_t size() const;
   /// The numbers of the finished pieces, ascending.
-  std::vector<std::size_t> pieces() const;
+  std::vector<std::uint64_t> pieces() const;
   /// All rows. Call it only after the last `put`.
   const Rows& rows() const { return rows_; }
   const std::filesystem::path& file() const { return file_; }
@@ -128,7 +129,7 @@ auto counted_rows(const KeptRows& kept, const Count& count) {
 /// adding the row `write(made)`. If `read` throws, the result is made again.
 /// @param kept may be null
 template <class Make, class Write, class Read>
-auto kept_or_made(KeptRows* kept, std::size_t piece, const Make& make, const Write& write,
+auto kept_or_made(KeptRows* kept, std::uint64_t piece, const Make& make, const Write& write,
                   const Read& read) {
   if (kept != nullptr) {
     if (const std::optional<Json> row = kept->find(piece)) {

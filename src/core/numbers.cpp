@@ -3,10 +3,31 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
+#include <string>
+#include <type_traits>
 
 namespace recoil {
 namespace {
+
+/// As std::from_chars. libc++ has none for double yet; its strtod also reads blanks and hexadecimal
+/// digits.
+template <class Number>
+std::from_chars_result read_number(const char* first, const char* last, Number& value) {
+#ifndef __cpp_lib_to_chars
+  if constexpr (std::is_same_v<Number, double>) {
+    const std::string text(first, last);
+    char* end = nullptr;
+    if (text.find_first_not_of("+-.0123456789eE") == std::string::npos && !text.starts_with('+')) {
+      value = std::strtod(text.c_str(), &end);
+    }
+    if (end == nullptr || end == text.c_str()) return {first, std::errc::invalid_argument};
+    return {first + (end - text.c_str()), std::errc{}};
+  } else
+#endif
+    return std::from_chars(first, last, value);
+}
 
 /// The number that is the whole of `text`, which may begin with a plus sign.
 template <class Number>
@@ -15,7 +36,7 @@ std::optional<Number> parse_all(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   Number value{};
   const char* const end = text.data() + text.size();
-  const auto [stop, failed] = std::from_chars(text.data(), end, value);
+  const auto [stop, failed] = read_number(text.data(), end, value);
   if (failed != std::errc{} || stop != end) return std::nullopt;
   return value;
 }

@@ -376,10 +376,10 @@ CandidateResult try_both(const SearchBase& base, Screening screening, bool follo
 
 }  // namespace
 
-std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k) {
-  constexpr std::size_t kinds = 4;
-  constexpr std::size_t of_each = std::size_t{1} << 32;
-  return ((options.first_piece + 1) * kinds + static_cast<std::size_t>(kind)) * of_each + k;
+std::uint64_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k) {
+  constexpr std::uint64_t kinds = 4;
+  constexpr std::uint64_t of_each = std::uint64_t{1} << 32;
+  return ((options.first_piece + 1) * kinds + static_cast<std::uint64_t>(kind)) * of_each + k;
 }
 
 bool can_be_seen(const SearchBase& base, const Candidate& candidate) {

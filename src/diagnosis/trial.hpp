@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ enum class KeptPiece {
 };
 
 /// The number of piece `k` of its kind, distinct from those of the calibration.
-std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k);
+std::uint64_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k);
 
 /// Refits `candidate` from `near` under the errors of laws and computes its gain; follows `tries`
 /// starts (`refit_candidate`).

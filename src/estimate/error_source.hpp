@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -32,7 +33,7 @@ struct Local {
 
 /// One draw of an error at one point, times `factor`.
 struct ErrorPart {
-  std::size_t draw = 0;
+  std::uint64_t draw = 0;
   double factor = 1.0;
 };
 

@@ -26,8 +26,8 @@ class InstantError : public ErrorSource {
   std::vector<ErrorPart> parts(const Observation& point) const override {
     if (point.launch == Observation::no_launch) return {};
     const std::array<double, 3> part = instant_coefficients(point.restitution);
-    constexpr std::size_t most_bounces = std::size_t{1} << 32;
-    const std::size_t first = point.launch * most_bounces + point.bounce;
+    constexpr std::uint64_t most_bounces = std::uint64_t{1} << 32;
+    const std::uint64_t first = point.launch * most_bounces + point.bounce;
     return {{first, part[0]}, {first + 1, part[1]}, {first + 2, part[2]}};
   }
   bool is_scatter() const override { return true; }

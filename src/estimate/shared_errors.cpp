@@ -46,7 +46,7 @@ std::vector<std::vector<double>> loads_of_sources(const Observations& data,
 SharedErrors::SharedErrors(const Observations& data, const Weights& weights) {
   if (!data.share_errors()) return;
   // Every draw is a column of U; columns with a common point form one block.
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Member>> columns;  // source, draw
+  std::map<std::pair<std::size_t, std::uint64_t>, std::vector<Member>> columns;  // source, draw
   const std::vector<std::vector<double>> loads = loads_of_sources(data, weights);
   for (std::size_t k = 0; k < data.sources.size(); ++k) {
     const ErrorSource& source = *data.sources[k];
@@ -149,7 +149,7 @@ void SharedErrors::whiten(std::span<double> rows, std::size_t columns) const {
   }
 }
 
-double ErrorDraws::draw(const ErrorSource& source, std::size_t number) {
+double ErrorDraws::draw(const ErrorSource& source, std::uint64_t number) {
   const auto [place, is_new] = drawn_.try_emplace({&source, number}, 0.0);
   if (is_new) place->second = random_.normal();
   return place->second;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <utility>
@@ -64,10 +65,10 @@ class ErrorDraws {
   double operator()(const ErrorSource& source, const Observation& point, std::size_t i);
 
  private:
-  double draw(const ErrorSource& source, std::size_t number);
+  double draw(const ErrorSource& source, std::uint64_t number);
 
   RandomStream& random_;
-  std::map<std::pair<const ErrorSource*, std::size_t>, double> drawn_;
+  std::map<std::pair<const ErrorSource*, std::uint64_t>, double> drawn_;
 };
 
 /// Draws the errors that points share, as the error of e of every point [points] [1].

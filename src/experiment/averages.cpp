@@ -214,7 +214,7 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
     const auto end = std::find_if(begin, arrivals.end(), [&](const Arrival& other) {
       return other.series != begin->series || other.size_class != begin->size_class;
     });
-    const std::span<const Arrival> group(begin, end);
+    const std::span<const Arrival> group(&*begin, static_cast<std::size_t>(end - begin));
     begin = end;
     const double all_sizes = moments_of(group, &Arrival::diameter).mean;
     const std::vector<std::size_t> begins = cuts(group, options.per_bin, pairs.velocity_spread);

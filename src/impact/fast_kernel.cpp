@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <experimental/simd>
 
+#include "impact/lanes.hpp"
 #include "impact/laws.hpp"
 #include "impact/phase_solver.hpp"
 #include "impact/step_solver.hpp"
@@ -17,9 +17,7 @@
 namespace recoil::RECOIL_KERNEL {
 namespace {
 
-/// The type of a register. With fixed_size_simd, max and min would be function calls.
-using Pack =
-    std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, RECOIL_LANES>>;
+using Pack = Lanes<RECOIL_LANES>;  // one register
 
 constexpr std::size_t batch = 1024;
 

@@ -2,22 +2,11 @@
 
 #include <array>
 #include <cstddef>
-#include <experimental/simd>
 #include <utility>
 
 #include "impact/phase_rule.hpp"
 
 namespace recoil {
-
-// The larger (smaller) of the two; `a` where either is not a number.
-template <class Pack>
-[[gnu::always_inline]] inline Pack pack_larger(const Pack& a, const Pack& b) {
-  return std::experimental::max(b, a);
-}
-template <class Pack>
-[[gnu::always_inline]] inline Pack pack_smaller(const Pack& a, const Pack& b) {
-  return std::experimental::min(b, a);
-}
 
 /// One number per node of a PhaseRule.
 template <class Pack>
@@ -150,7 +139,7 @@ struct Phase {
       for (std::size_t first = 0; first < rule.count; first += phase_block) {
         const auto next = next_losses<compression>(first);
         for_block([&](std::size_t i) {
-          change = pack_larger(change, Pack(abs(next[i] - lost[first + i])));
+          change = max(abs(next[i] - lost[first + i]), change);
           where(moving, lost[first + i]) = next[i];
         });
         follow_block<compression>(first, moving);
@@ -174,7 +163,7 @@ struct Phase {
       }
     }
     for (std::size_t i = 0; i < rule.count; ++i) {
-      lowest = pack_smaller(lowest, half_square<compression>(i));
+      lowest = min(half_square<compression>(i), lowest);
     }
     loss = row_times(rule.weight, rates, rule.count);
     defect = defect_of(rule, rates);
@@ -190,7 +179,7 @@ struct Phase {
   template <bool compression>
   [[gnu::always_inline]] Pack square(std::size_t i) const {
     const Pack half = half_square<compression>(i);
-    return pack_larger(half + half, Pack(least));
+    return max(Pack(least), half + half);
   }
   template <bool compression>
   [[gnu::always_inline]] void start(std::size_t i) {
@@ -228,7 +217,7 @@ struct Phase {
       squares[k] = square<compression>(i);
       const Pack half = 0.5 * slowness[i];
       const Pack step = (squares[k] - speed[i] * speed[i]) * half;
-      furthest = pack_larger(furthest, Pack(abs(step * slowness[i])));
+      furthest = max(abs(step * slowness[i]), furthest);
       where(moving, speed[i]) = speed[i] + step;
       where(moving, slowness[i]) = slowness[i] * (2.0 - speed[i] * slowness[i]);
     });

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <experimental/simd>
 #include <span>
 
 #include "impact/force_law.hpp"
@@ -198,8 +197,7 @@ class PhaseSolver {
           if (none_of(moving)) return false;
           const Pack missing = law_.potential(end_) - (bottom - loss);
           const Pack moved = end_ - missing / law_.slope(end_);
-          where(moving, end_) =
-              pack_smaller(pack_larger(moved, 0.5 * (release_ + end_)), 0.5 * (resting_ + end_));
+          where(moving, end_) = min(0.5 * (resting_ + end_), max(0.5 * (release_ + end_), moved));
           return true;
         });
   }
@@ -210,7 +208,7 @@ class PhaseSolver {
     const Pack depth = law_.potential(resting_);
     Pack part = (bottom - (target_ - bottom)) / depth;
     where(!(part > 0.1), part) = 0.1;
-    end_ = resting_ - (resting_ - release_) * sqrt(pack_larger(Pack(0.0), 1.0 - part));
+    end_ = resting_ - (resting_ - release_) * sqrt(max(1.0 - part, Pack(0.0)));
   }
 
   /// exp(-x) for x from 0 to 6 with a relative error of 1e-10.
@@ -267,7 +265,7 @@ class PhaseSolver {
     for (std::size_t i = 0; i < count; ++i) held_out[i] = out.damping[i] * out.slowness[i];
     held_out_ = row_times(out.rule.weight, held_out, count);
     held_ = row_times(in.rule.weight, held_in, count) + held_out_;
-    all_ = decay(pack_smaller(held_, Pack(most_held)));
+    all_ = decay(min(Pack(most_held), held_));
     held_defect_ = defect_of(in.rule, held_in) + defect_of(out.rule, held_out);
     if (!gradient_) return;
     slopes_.fill(Pack(0.0));
@@ -325,11 +323,11 @@ class PhaseSolver {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       values[lane] = value(order[lane < order.size() ? lane : 0]);
     }
-    return Pack(values.data(), std::experimental::element_aligned);
+    return Pack(values.data());
   }
   static std::array<double, lanes> lanes_of(const Pack& pack) {
     std::array<double, lanes> values;
-    pack.copy_to(values.data(), std::experimental::element_aligned);
+    pack.copy_to(values.data());
     return values;
   }
 

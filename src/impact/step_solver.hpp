@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <experimental/simd>
 #include <span>
 #include <utility>
 

@@ -153,7 +153,7 @@ class BudgetMaker {
     }
     for (std::size_t k = 0; k < of_source.size(); ++k) {
       const ErrorSource& source = *data.sources[k];
-      std::map<std::size_t, double> draws;
+      std::map<std::uint64_t, double> draws;
       for (std::size_t i = 0; i < n; ++i) {
         const double load = source.is_scatter() ? 1.0 : loads_[k][i];
         for (const ErrorPart& one : source.parts(data.points[i])) {

@@ -69,8 +69,8 @@ std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> first;  // point of a source's draw
-  const auto join = [&](std::size_t source, std::size_t draw, std::size_t i) {
+  std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> first;  // point of a source's draw
+  const auto join = [&](std::size_t source, std::uint64_t draw, std::size_t i) {
     const std::size_t other = root_of(first.try_emplace({source, draw}, i).first->second);
     const std::size_t own = root_of(i);
     root[std::max(own, other)] = std::min(own, other);

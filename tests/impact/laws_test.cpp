@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <experimental/simd>
 #include <fstream>
 #include <numeric>
 #include <sstream>
 
 #include "impact/impact.hpp"
+#include "impact/lanes.hpp"
 #include "impact/phase_solver.hpp"
 #include "impact/step_solver.hpp"
 
@@ -43,7 +43,7 @@ TEST(AdhesionLaws, AFurtherLawIsALineInTheList) {
   EXPECT_EQ(five.back().equation, "a law of the tests");
 }
 
-using Pack = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, 2>>;
+using Pack = Lanes<2>;
 
 TEST(AdhesionLaws, TheSolversRunAnyStructOfALaw) {
   ImpactOptions options;
