@@ -308,7 +308,7 @@ bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
     const auto odds = [&](double count) {
       return expected_log_odds(apart, a.variance[i], b.variance[i], first, count);
     };
-    const auto count = fewest_impacts([&](double n) { return odds(n).average; });
+    const auto count = fewest_impacts([&](double n) { return odds(n).worst; });
     if (!count || (fewest && *count >= *fewest)) continue;
     fewest = count;
     experiment.dataset = possible.at[i].dataset;

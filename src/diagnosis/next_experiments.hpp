@@ -73,7 +73,7 @@ inline constexpr std::string_view law_error_as_rival = "law_error";
 /// the scatter of one impact over n, the errors of the fitted parameters, and the errors of the
 /// laws (`LawErrors`). If a rival is right, the expected log odds for it are the Kullback-Leibler
 /// divergence of the two normal distributions (Box & Hill 1967, Technometrics 9, 57-71); they stay
-/// finite as n grows. Their average over both rivals, with their probabilities, must be ln 99.
+/// finite as n grows. The smaller of both must be ln 99.
 ///
 /// The parameters and the errors of the laws are normal: with A the weighted slopes of the measured
 /// points in both and r the weighted residuals, their mean is -(A'A + I')^-1 A'r and their

@@ -148,7 +148,7 @@ struct DiagnosisFile {
       (double, diameter_um, "diameter", "um"),
       (double, incident_velocity, "incident velocity", "m/s"),
       (int, events, "number of impacts that gives expected odds of 99 to 1 between the two causes, "
-       "as far as their parameters and laws are known"),
+       "whichever is right, as far as their parameters and laws are known"),
       (bool, expensive, "whether it takes more than 2,000 impacts"),
       (Pair, separates, "the two causes; law_error: an error of the base model's laws"),
       (OrNull<double>, expected_difference, "expected difference of their e", "1"),
