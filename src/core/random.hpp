@@ -16,6 +16,7 @@ enum class RandomPurpose : std::uint32_t {
   settings = 9,
   calibration = 10,
   example = 11,
+  experiments = 12,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

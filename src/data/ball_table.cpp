@@ -48,8 +48,7 @@ const TabledBall& tabled_ball(const std::string& name) {
   std::vector<std::string> names;
   for (const TabledBall& ball : sport_balls) names.emplace_back(ball.name);
   throw InputError({}, fmt::format("--ball {} is not in the table", quote(name)),
-                   fmt::format("it has {}", listed(names)),
-                   "give --diameter and --mass of this ball");
+                   did_you_mean(asked, names), "give --diameter and --mass of this ball");
 }
 
 }  // namespace recoil

@@ -165,6 +165,13 @@ std::optional<double> parse_number(std::string_view text, const NumberFormat& fo
   return parse_number(plain);
 }
 
+void DecimalCommas::see(std::string_view cell) {
+  const std::size_t comma = cell.find(',');
+  const bool three_follow = comma != cell.npos && cell.size() == comma + 4;
+  comma_ = comma_ || (comma != cell.npos && !three_follow && parse_number(cell, {","}));
+  point_ = point_ || (cell.find('.') != cell.npos && parse_number(cell, {}));
+}
+
 double number_in(const CsvField& cell, const std::string& file, const std::string& what,
                  const NumberFormat& format) {
   if (const auto value = parse_number(cell.text, format)) return *value;

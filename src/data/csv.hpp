@@ -44,6 +44,18 @@ struct NumberFormat {
 /// the format's or with groups that do not have three digits.
 std::optional<double> parse_number(std::string_view text, const NumberFormat& format);
 
+/// Finds out whether the numbers of a table have decimal commas: some have a comma that does not
+/// group thousands, and none has a point.
+class DecimalCommas {
+ public:
+  void see(std::string_view cell);
+  bool found() const { return comma_ && !point_; }
+
+ private:
+  bool comma_ = false;
+  bool point_ = false;
+};
+
 /// The finite number in a cell. @param what it means, for the message: "diameter in um"
 /// @throws InputError at the cell
 double number_in(const CsvField& cell, const std::string& file, const std::string& what,

@@ -48,6 +48,7 @@ enum class Quantity {
   velocities_calibrated,
   sizes_calibrated,
   film_thickness,
+  sizes_equal,
 };
 constexpr auto names_of_values(Quantity) {
   constexpr auto own = name_list(

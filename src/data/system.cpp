@@ -199,6 +199,9 @@ const ConditionInfo& info_of(Condition condition) {
        true},
       {limits::film,
        "thickness of a liquid film, on sphere and surface together; 0 where both are dry"},
+      {{0.0, 1.0, "1", "1 means of one size, 0 that they were not"},
+       "1 where the spheres of a point were sieved or measured one by one, else 0",
+       true},
   }};
   return all[static_cast<std::size_t>(condition)];
 }

@@ -36,12 +36,13 @@ enum class Condition {
   surface_rms_roughness,  ///< [m]
   velocities_calibrated,  ///< 0 or 1: readings were checked against a known velocity or height
   sizes_calibrated,       ///< 0 or 1: the diameters were checked against a standard
-  film_thickness          ///< of a liquid on both bodies together; 0: they are dry [m]
+  film_thickness,         ///< of a liquid on both bodies together; 0: they are dry [m]
+  sizes_equal             ///< 0 or 1: the spheres of a point were sieved or measured one by one
 };
 constexpr auto names_of_values(Condition) {
   return name_list("ambient_pressure", "relative_humidity", "temperature", "target_thickness",
                    "probe_height", "neutralised", "surface_rms_roughness", "velocities_calibrated",
-                   "sizes_calibrated", "film_thickness");
+                   "sizes_calibrated", "film_thickness", "sizes_equal");
 }
 
 /// The values of a condition.

@@ -319,18 +319,25 @@ bool plausible_cause_fits_as_well(const std::vector<CandidateResult>& candidates
   });
 }
 
-/// The ids of the `candidates`, the best first, for which `holds` and that cannot be distinguished
-/// from the best of these.
+/// The `candidates`, the best first, for which `holds` and that cannot be distinguished from the
+/// best of these.
 template <class Holds>
-std::vector<std::string> best_where(const Holds& holds,
-                                    const std::vector<CandidateResult>& candidates, double margin) {
-  std::vector<std::string> ids;
+std::vector<const CandidateResult*> best_where(const Holds& holds,
+                                               const std::vector<CandidateResult>& candidates,
+                                               double margin) {
+  std::vector<const CandidateResult*> found;
   double best = INFINITY;
   for (const CandidateResult& c : candidates) {
     if (!holds(c)) continue;
     best = std::min(best, c.delta_aicc);
-    if (c.delta_aicc <= best + margin) ids.push_back(c.candidate.added.front());
+    if (c.delta_aicc <= best + margin) found.push_back(&c);
   }
+  return found;
+}
+
+std::vector<std::string> ids_of(const std::vector<const CandidateResult*>& singles) {
+  std::vector<std::string> ids;
+  for (const CandidateResult* c : singles) ids.push_back(c->candidate.added.front());
   return ids;
 }
 
@@ -376,7 +383,7 @@ DiagnosisAnswer without_a_cause(const SearchBase& base, const Diagnosis& diagnos
       plausible_cause_fits_as_well(candidates, *impossible, base.options.chance)) {
     return Unexplained{};
   }
-  return Resembles{best_where(only_resembles, candidates, margin)};
+  return Resembles{ids_of(best_where(only_resembles, candidates, margin))};
 }
 
 /// Steps 2 to 5.
@@ -415,7 +422,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   ExtendedModel extended = extended_by(best, base, base_intervals);
   if (found.size() == 1 && !one_size) return CauseNamed{std::move(extended)};
   NotSeparable answer = several(found, one_size);
-  if (!options.answer_alone) answer.experiments = next_experiments(base, found);
+  if (!options.answer_alone) diagnosis.next = next_experiments(base, found);
   answer.extended = std::move(extended);
   return answer;
 }
@@ -455,34 +462,55 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   return diagnosis;
 }
 
-/// What exact laws leave and, if it has structure, steps 1 to 5 with them for single causes.
-std::optional<IfExact> if_exact(const SearchBase& allowed) {
-  if (!(allowed.first.law_error > 0.0)) return std::nullopt;
+/// Experiments that tell the causes of exact laws from each other and from an error of the laws.
+/// @param close those causes, as exact laws fit them
+NextExperiments experiments_on_a_hint(const SearchBase& allowed,
+                                      const std::vector<const CandidateResult*>& close) {
+  constexpr std::size_t most_causes = 3;
+  std::vector<CandidateResult> causes;
+  for (const CandidateResult* cause : close) {
+    if (causes.size() == most_causes) break;
+    causes.push_back(try_one(allowed, cause->candidate, cause->refit.theta, 0));
+    if (!causes.back().refit.usable) causes.pop_back();
+  }
+  if (causes.empty()) return {};
+  CandidateResult base;  // its criterion is the zero of the others
+  base.candidate = allowed.candidate;
+  base.refit = allowed.refit;
+  causes.push_back(std::move(base));
+  std::ranges::stable_sort(causes, {}, &CandidateResult::delta_aicc);
+  std::vector<const CandidateResult*> rivals;
+  for (const CandidateResult& one : causes) rivals.push_back(&one);
+  return next_experiments(allowed, rivals);
+}
+
+/// Adds what exact laws leave and, if it has structure, the answer of steps 1 to 5 with them for
+/// single causes; unless a cause is named without them. Where an error of the laws explains as much
+/// as any cause, the closest causes are those of its search.
+void add_exact_answer(const SearchBase& allowed, Diagnosis& diagnosis) {
+  if (allowed.options.answer_alone || diagnosis.answer_if<CauseNamed>()) return;
+  if (!(allowed.first.law_error > 0.0)) return;
   FitSpec spec = allowed.spec;
   spec.law_error = 0.0;
   DiagnosisOptions options = allowed.options;
   options.answer_alone = options.single_causes = true;
   options.kept.reset();  // their pieces are others
   const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, options);
-  if (!base.refit.usable) return std::nullopt;
-  IfExact found;
+  if (!base.refit.usable) return;
+  IfExact& found = diagnosis.if_exact.emplace();
   found.p_value = quick_p_value(base, base.refit);
-  if (found.p_value > options.level) return found;
+  if (found.p_value > options.level) return;
   const Diagnosis exact = diagnose_all(base, {});
-  found.named = exact.named();
-  found.listed = best_where(may_act, exact.candidates, options.margin);
-  return found;
-}
-
-/// Adds the answer for exact laws, unless a cause is named without them. Where an error of the laws
-/// explains as much as any cause, the closest causes are those of its search.
-void add_exact_answer(const SearchBase& base, Diagnosis& diagnosis) {
-  if (base.options.answer_alone || diagnosis.answer_if<CauseNamed>()) return;
-  diagnosis.if_exact = if_exact(base);
   const bool law_error_competes = diagnosis.answer_if<Adequate>() && !diagnosis.candidates.empty();
-  if (diagnosis.if_exact && law_error_competes) {
-    const double margin = has_one_size(base.fitted.data) ? margin_at_one_size : base.options.margin;
-    diagnosis.if_exact->listed = best_where(may_act, diagnosis.candidates, margin);
+  const std::vector<CandidateResult>& candidates =
+      law_error_competes ? diagnosis.candidates : exact.candidates;
+  const double margin = has_one_size(base.fitted.data) ? margin_at_one_size : options.margin;
+  const std::vector<const CandidateResult*> close = best_where(may_act, candidates, margin);
+  found.named = exact.named();
+  found.listed = ids_of(close);
+  const bool no_cause = diagnosis.rivals().empty() && diagnosis.resembles().empty();
+  if (no_cause && !has_one_size(base.fitted.data)) {
+    diagnosis.next = experiments_on_a_hint(allowed, close);
   }
 }
 

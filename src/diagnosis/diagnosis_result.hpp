@@ -122,7 +122,6 @@ struct NotSeparable {
   std::vector<std::string> alone;           ///< if the best is a pair: single causes that are close
   std::vector<std::string> common;          ///< the causes in all of them
   std::string shared_cause;                 ///< the cause of which all rivals are laws; empty: none
-  std::vector<NextExperiment> experiments;  ///< the least effort first
 };
 
 /// The residuals have the shape of these causes, which fit best but are implausible, or cannot be
@@ -154,6 +153,9 @@ struct Diagnosis {
   DiagnosisAnswer answer;
   /// The answer with exact laws; nullopt if a cause is named without them, or for the answer alone.
   std::optional<IfExact> if_exact;
+  /// Experiments that distinguish the rivals. If no cause is named or listed but exact laws would
+  /// leave structure: the causes that exact laws list, and the base model with an error of its laws.
+  NextExperiments next;
   Structure structure;  ///< structure of the base model's residuals
   /// Points that were set aside; the other members are without them.
   std::vector<OutlyingPoint> outlying;

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
+#include "core/random.hpp"
 #include "diagnosis/discrepancy.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/impact_problem.hpp"
@@ -21,6 +24,7 @@ constexpr int grid_velocities = 24;                   // velocities in the grid 
 constexpr double smallest_sd = 1e-3;                  // least sd of e of one impact
 constexpr double least_restitution = 0.05;            // below it e^2 is not linear in e
 constexpr double most_impacts = 1e6;                  // largest number of impacts of an experiment
+constexpr Eigen::Index draws = 32;                    // of the unknowns of a rival
 constexpr int effort_of_a_change = 100;               // effort of changing a condition, in impacts
 constexpr double wanted_log_odds = 4.59511985013459;  // ln 99
 
@@ -128,70 +132,152 @@ struct PredictedImpacts {
   std::vector<double> variance;     ///< variance of that mean over the variance of one impact
 };
 
-/// The distribution of the possible impacts given the measured points, see `next_experiments`.
-/// @param removed a mechanism that a changed condition removes from the possible impacts, or null
-PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult& rival,
-                                   const PossibleImpacts& possible, const Mechanism* removed) {
-  const ImpactModel& model = rival.candidate.model;
-  const std::vector<double>& theta = rival.refit.theta;
+/// e of the possible impacts, 0 for a capture; NaN if an impact cannot be solved.
+Eigen::ArrayXd restitutions(const ImpactModel& model, const std::vector<double>& theta,
+                            const PossibleImpacts& possible, const Mechanism* removed) {
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
-  PredictedImpacts found;
+  Eigen::ArrayXd found(static_cast<Eigen::Index>(possible.at.size()));
+  Eigen::Index i = 0;
   for (const Prediction& at : predict(model, changed, possible.at, false)) {
-    found.restitution.push_back(at.usable() ? at.restitution() : NAN);
-  }
-  found.variance.assign(possible.at.size(), NAN);
-  const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
-  const auto g = static_cast<Eigen::Index>(possible.at.size());
-  const WeightedData all = with_possible(base.fitted, possible, found.restitution);
-  LawErrors laws = base.laws;
-  laws.functions = smooth_functions(all.data);
-  const auto here = linearised_at(rival, all, theta, laws);
-  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
-  if (!here || !there) return found;
-  const Eigen::Index rows = here->slopes.rows();
-  const Eigen::Index p = here->parameters;
-  std::vector<Eigen::Index> measured;  // and constants
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    if (i < n || i >= n + g) measured.push_back(i);
-  }
-  Eigen::MatrixXd known = here->slopes(measured, Eigen::all);
-  const Eigen::VectorXd residuals = here->residuals(measured);
-  Eigen::MatrixXd asked = there->slopes.middleRows(n, g);
-  // Columns of unit length: the units of the parameters differ by twenty orders of magnitude.
-  for (Eigen::Index k = 0; k < p; ++k) {
-    const double length = std::sqrt(known.col(k).squaredNorm());
-    if (!(length > 0.0)) return found;
-    known.col(k) /= length;
-    asked.col(k) /= length;
-  }
-  Eigen::VectorXd prior = Eigen::VectorXd::Ones(here->slopes.cols());
-  prior.head(p).setConstant(1e-12);
-  Eigen::MatrixXd information = known.transpose() * known;
-  information.diagonal() += prior;
-  const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  if (factor.info() != Eigen::Success) return found;
-  const Eigen::VectorXd likeliest = -factor.solve(known.transpose() * residuals);
-  const Eigen::VectorXd moved = asked * likeliest;
-  const Eigen::MatrixXd root = factor.matrixL().solve(asked.transpose());
-  for (Eigen::Index i = 0; i < g; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    found.variance[k] = root.col(i).squaredNorm();
-    found.restitution[k] = std::max(0.0, found.restitution[k] - possible.sd[k] * moved(i));
+    found(i++) = at.usable() ? at.restitution() : NAN;
   }
   return found;
 }
 
-/// The expected ln odds for the true one of two rivals after `count` impacts.
+/// The normal distribution of the unknowns of a rival given the measured points, and what they do
+/// to the possible impacts.
+struct Unknowns {
+  Eigen::VectorXd likeliest;                ///< [parameters, then errors of the laws]
+  Eigen::LLT<Eigen::MatrixXd> information;  ///< the inverse of their covariance
+  Eigen::VectorXd length;                   ///< of the parameters' columns: their scale
+  Eigen::MatrixXd by_laws;                  ///< d residual / d error of a law [possible x errors]
+};
+
+/// @return nullopt if they cannot be computed
+std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResult& rival,
+                                    const PossibleImpacts& possible, const Mechanism* removed) {
+  const ImpactModel& model = rival.candidate.model;
+  const std::vector<double>& theta = rival.refit.theta;
+  const std::vector<double> changed =
+      removed == nullptr ? theta : without_mechanism(model, theta, *removed);
+  const Eigen::ArrayXd expected = restitutions(model, theta, possible, removed);
+  const WeightedData all =
+      with_possible(base.fitted, possible, {expected.data(), expected.data() + expected.size()});
+  LawErrors laws = base.laws;
+  laws.functions = smooth_functions(all.data);
+  const auto here = linearised_at(rival, all, theta, laws);
+  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
+  if (!here || !there) return std::nullopt;
+  const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
+  const auto g = static_cast<Eigen::Index>(possible.at.size());
+  std::vector<Eigen::Index> measured;  // and constants
+  for (Eigen::Index i = 0; i < here->slopes.rows(); ++i) {
+    if (i < n || i >= n + g) measured.push_back(i);
+  }
+  Eigen::MatrixXd known = here->slopes(measured, Eigen::all);
+  // Columns of unit length: the units of the parameters differ by twenty orders of magnitude.
+  const Eigen::Index p = here->parameters;
+  Unknowns found;
+  found.length = known.leftCols(p).colwise().norm();
+  if (p > 0 && !(found.length.minCoeff() > 0.0)) return std::nullopt;
+  known.leftCols(p) *= found.length.cwiseInverse().asDiagonal();
+  Eigen::VectorXd prior = Eigen::VectorXd::Ones(known.cols());
+  prior.head(p).setConstant(1e-12);
+  Eigen::MatrixXd information = known.transpose() * known;
+  information.diagonal() += prior;
+  found.information.compute(information);
+  if (found.information.info() != Eigen::Success) return std::nullopt;
+  found.likeliest = -found.information.solve(known.transpose() * here->residuals(measured));
+  found.by_laws = there->slopes.middleRows(n, g).rightCols(known.cols() - p);
+  return found;
+}
+
+/// The distribution of the possible impacts given the measured points, see `next_experiments`.
+/// @param removed a mechanism that a changed condition removes from the possible impacts, or null
+PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult& rival,
+                                   const PossibleImpacts& possible, const Mechanism* removed) {
+  const auto g = static_cast<Eigen::Index>(possible.at.size());
+  PredictedImpacts found;
+  found.restitution.assign(possible.at.size(), NAN);
+  found.variance.assign(possible.at.size(), NAN);
+  const auto unknowns = unknowns_of(base, rival, possible, removed);
+  if (!unknowns) return found;
+  const ImpactModel& model = rival.candidate.model;
+  const std::vector<std::size_t> moving = rival.refit.moving_slots();
+  const Eigen::Index p = unknowns->length.size();
+  const Eigen::Index count = unknowns->likeliest.size();
+  const Eigen::Map<const Eigen::ArrayXd> sd(possible.sd.data(), g);
+  Eigen::ArrayXXd drawn(g, draws);
+  RandomStream random(base.options.seed, RandomPurpose::experiments, 0);
+  Eigen::VectorXd normal(count);
+  for (Eigen::Index k = 0; k < draws; ++k) {
+    // Every second draw is the mirror image of the one before it.
+    for (double& one : normal) one = k % 2 == 0 ? random.normal() : -one;
+    Eigen::VectorXd x = unknowns->likeliest;
+    if (count > 0) x += unknowns->information.matrixU().solve(normal);
+    std::vector<double> theta = rival.refit.theta;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const std::size_t slot = moving[static_cast<std::size_t>(j)];
+      theta[slot] = std::clamp(theta[slot] + x(j) / unknowns->length(j), model.slots[slot].lower,
+                               model.slots[slot].upper);
+    }
+    const Eigen::ArrayXd by_laws = (unknowns->by_laws * x.tail(count - p)).array();
+    const auto or_capture = [](double e) { return e < 0.0 ? 0.0 : e; };
+    drawn.col(k) =
+        (restitutions(model, theta, possible, removed) - sd * by_laws).unaryExpr(or_capture);
+  }
+  const Eigen::ArrayXd mean = drawn.rowwise().mean();
+  const Eigen::ArrayXd variance = (drawn.colwise() - mean).square().rowwise().mean();
+  for (Eigen::Index i = 0; i < g; ++i) {
+    found.restitution[static_cast<std::size_t>(i)] = mean(i);
+    found.variance[static_cast<std::size_t>(i)] = variance(i) / (sd(i) * sd(i));
+  }
+  return found;
+}
+
+std::string name_of(const CandidateResult& rival) {
+  return rival.candidate.added.empty() ? std::string(law_error_as_rival) : rival.candidate.name();
+}
+
+/// The probabilities that `rivals` act, of which one does.
+std::vector<double> probabilities(std::span<const CandidateResult* const> rivals) {
+  std::vector<double> all;
+  double sum = 0.0;
+  for (const CandidateResult* rival : rivals) {
+    all.push_back(std::exp(-0.5 * (rival->delta_aicc - rivals.front()->delta_aicc)));
+    sum += all.back();
+  }
+  for (double& one : all) one /= sum;
+  return all;
+}
+
+/// A rival with its probability and its predictions of the possible impacts.
+struct Forecast {
+  const CandidateResult* rival = nullptr;
+  double probability = 0.0;
+  PredictedImpacts impacts;
+};
+
+/// Expected ln odds for the right one of two rivals.
+struct LogOdds {
+  double average = 0.0;  ///< over which one is right
+  double worst = 0.0;    ///< for the less favourable one
+};
+
+/// The expected ln odds after `count` impacts.
 /// @param apart difference of the predicted means, over the standard deviation of one impact
 /// @param one,other variances of the predictions, over the variance of one impact
-double expected_log_odds(double apart, double one, double other, double count) {
+/// @param first probability that the first is right, if one of the two is
+LogOdds expected_log_odds(double apart, double one, double other, double first, double count) {
   const double a = one + 1.0 / count;
   const double b = other + 1.0 / count;
   const auto divergence = [&](double from, double to) {
     return 0.5 * (from / to - 1.0 - std::log(from / to) + apart * apart / to);
   };
-  return std::min(divergence(a, b), divergence(b, a));
+  const double if_first = divergence(a, b);
+  const double if_second = divergence(b, a);
+  return {first * if_first + (1.0 - first) * if_second, std::min(if_first, if_second)};
 }
 
 /// The smallest number of impacts whose `log_odds(count)`, an increasing function, reaches ln 99;
@@ -210,18 +296,19 @@ std::optional<int> fewest_impacts(const LogOdds& log_odds) {
 }
 
 /// Writes into `experiment` the impact that distinguishes two predictions with the fewest events.
+/// @param first probability that `a` is right, if one of the two is
 /// @return false if there is none
 bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
-                 const PredictedImpacts& b, NextExperiment& experiment) {
+                 const PredictedImpacts& b, double first, NextExperiment& experiment) {
   std::optional<int> fewest;
   for (std::size_t i = 0; i < possible.at.size(); ++i) {
     const double difference = a.restitution[i] - b.restitution[i];
     const double apart = difference / possible.sd[i];
     if (!std::isfinite(apart + a.variance[i] + b.variance[i])) continue;
     const auto odds = [&](double count) {
-      return expected_log_odds(apart, a.variance[i], b.variance[i], count);
+      return expected_log_odds(apart, a.variance[i], b.variance[i], first, count);
     };
-    const auto count = fewest_impacts(odds);
+    const auto count = fewest_impacts([&](double n) { return odds(n).worst; });
     if (!count || (fewest && *count >= *fewest)) continue;
     fewest = count;
     experiment.dataset = possible.at[i].dataset;
@@ -229,9 +316,20 @@ bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
     experiment.velocity = possible.at[i].velocity;
     experiment.difference = difference;
     experiment.events = *count;
-    experiment.log_odds = odds(*count);
+    experiment.log_odds = odds(*count).average;
+    experiment.worst_log_odds = odds(*count).worst;
   }
   return fewest.has_value();
+}
+
+/// Largest difference in e of two predictions [1].
+double largest_difference(const PredictedImpacts& a, const PredictedImpacts& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.restitution.size(); ++i) {
+    const double here = std::abs(a.restitution[i] - b.restitution[i]);
+    if (here > largest) largest = here;
+  }
+  return largest;
 }
 
 /// Were some impacts of this dataset measured under a condition that removes the mechanism?
@@ -269,19 +367,19 @@ double value_for(const SearchBase& base, const TakenAway& away, std::size_t data
 }
 
 /// Adds the changes of a condition that remove a mechanism which `one` has and `other` lacks.
-void add_changes(const SearchBase& base, const PossibleImpacts& possible,
-                 const CandidateResult& one, const CandidateResult& other,
-                 const PredictedImpacts& of_other, std::vector<NextExperiment>& all) {
-  for (const std::string& id : one.candidate.added) {
+void add_changes(const SearchBase& base, const PossibleImpacts& possible, const Forecast& one,
+                 const Forecast& other, std::vector<NextExperiment>& all) {
+  for (const std::string& id : one.rival->candidate.added) {
     const Mechanism& mechanism = *find_mechanism(id);
-    if (!mechanism.info.taken_away || other.candidate.adds(id)) continue;
+    if (!mechanism.info.taken_away || other.rival->candidate.adds(id)) continue;
     NextExperiment change;
     change.kind = ExperimentKind::condition;
-    change.one = one.candidate.name();
-    change.other = other.candidate.name();
-    const PredictedImpacts without = predicted_impacts(base, one, possible, &mechanism);
-    if (!find_impact(possible, without, of_other, change)) continue;
-    if (was_taken_away(one.candidate, mechanism, change.dataset)) continue;
+    change.one = name_of(*one.rival);
+    change.other = name_of(*other.rival);
+    const PredictedImpacts without = predicted_impacts(base, *one.rival, possible, &mechanism);
+    const double first = one.probability / (one.probability + other.probability);
+    if (!find_impact(possible, without, other.impacts, first, change)) continue;
+    if (was_taken_away(one.rival->candidate, mechanism, change.dataset)) continue;
     change.condition = mechanism.info.taken_away->condition;
     change.value = value_for(base, *mechanism.info.taken_away, change.dataset);
     change.doing = mechanism.info.taken_away->doing;
@@ -310,29 +408,45 @@ double scatter_of_one_event(const FitResult& base, std::size_t dataset, double v
   return std::max(sd, smallest_sd);
 }
 
-std::vector<NextExperiment> next_experiments(const SearchBase& base,
-                                             const std::vector<const CandidateResult*>& rivals) {
-  if (rivals.size() < 2) return {};
+NextExperiments next_experiments(const SearchBase& base,
+                                 const std::vector<const CandidateResult*>& rivals) {
+  NextExperiments next;
+  if (rivals.size() < 2) return next;
   const PossibleImpacts possible = possible_impacts(base.fitted);
-  const std::size_t count = std::min(most_compared, rivals.size());
-  std::vector<PredictedImpacts> predicted;
-  for (std::size_t k = 0; k < count; ++k) {
-    predicted.push_back(predicted_impacts(base, *rivals[k], possible, nullptr));
+  const std::span compared(rivals.data(), std::min(most_compared, rivals.size()));
+  const std::vector<double> probability = probabilities(compared);
+  std::vector<Forecast> forecasts;
+  for (std::size_t k = 0; k < compared.size(); ++k) {
+    forecasts.push_back(
+        {compared[k], probability[k], predicted_impacts(base, *compared[k], possible, nullptr)});
   }
-  std::vector<NextExperiment> all;
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = a + 1; b < count; ++b) {
+  std::vector<std::pair<double, NextExperiment>> found;  // with its effort for the probability
+  for (std::size_t a = 0; a < forecasts.size(); ++a) {
+    for (std::size_t b = a + 1; b < forecasts.size(); ++b) {
+      const Forecast &one = forecasts[a], &other = forecasts[b];
+      const double either = one.probability + other.probability;
+      std::vector<NextExperiment> own;
       NextExperiment points;
-      points.one = rivals[a]->candidate.name();
-      points.other = rivals[b]->candidate.name();
-      if (find_impact(possible, predicted[a], predicted[b], points)) all.push_back(points);
-      add_changes(base, possible, *rivals[a], *rivals[b], predicted[b], all);
-      add_changes(base, possible, *rivals[b], *rivals[a], predicted[a], all);
+      points.one = name_of(*one.rival);
+      points.other = name_of(*other.rival);
+      if (find_impact(possible, one.impacts, other.impacts, one.probability / either, points)) {
+        own.push_back(points);
+      }
+      add_changes(base, possible, one, other, own);
+      add_changes(base, possible, other, one, own);
+      if (own.empty()) {
+        next.inseparable.push_back(
+            {points.one, points.other, largest_difference(one.impacts, other.impacts)});
+      }
+      for (NextExperiment& experiment : own) {
+        experiment.series = most_similar_series(base.fitted.data, experiment);
+        found.emplace_back(effort(experiment) / either, std::move(experiment));
+      }
     }
   }
-  for (NextExperiment& next : all) next.series = most_similar_series(base.fitted.data, next);
-  std::ranges::stable_sort(all, {}, effort);
-  return all;
+  std::ranges::stable_sort(found, {}, [](const auto& one) { return one.first; });
+  for (auto& [effort, experiment] : found) next.list.push_back(std::move(experiment));
+  return next;
 }
 
 }  // namespace recoil

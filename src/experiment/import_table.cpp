@@ -397,6 +397,16 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
   return columns;
 }
 
+/// Do the numbers of the first rows have decimal commas?
+bool have_decimal_commas(const std::vector<CsvRow>& table) {
+  constexpr std::size_t enough = 200;  // rows
+  DecimalCommas commas;
+  for (std::size_t i = 0; i < std::min(enough, table.size()); ++i) {
+    for (const CsvField& cell : table[i]) commas.see(cell.text);
+  }
+  return commas.found();
+}
+
 ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQuantity>& known,
                          const FieldUnits& units)
     : file_(request.file.string()),
@@ -405,6 +415,10 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQ
       known_(known),
       field_units_(units),
       rows_(import_rows(request, notes_)) {
+  if (!request.decimal_comma && have_decimal_commas(rows_)) {
+    format_.decimal = ",";
+    notes_.push_back({ImportRemark::decimal_commas});
+  }
   read_header(request.transpose);
   for (const CsvRow& row : rows_) require_width(row, header_.size(), file_);
   for (const std::string& entry : split_lists(request.map)) read_map(entry);

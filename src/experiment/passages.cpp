@@ -369,27 +369,23 @@ Header find_header(const std::string& text, const std::string& file, const Passa
   return found->header;
 }
 
-/// True if the numbers of the first rows have decimal commas: no point, and a comma that does not
-/// group thousands.
+/// Do the numbers of the first rows have decimal commas?
 bool has_decimal_commas(const std::string& text, std::size_t from, const Header& header,
                         const std::vector<FieldColumn>& columns) {
   constexpr int rows = 200;
-  bool comma = false;
-  bool point = false;
+  if (header.delimiter == ',') return false;
+  DecimalCommas commas;
   std::vector<std::string_view> cells;
   each_line(text, from, 0, [&](std::string_view content, int line, std::size_t) {
     split(content, header.delimiter, cells);
     for (const FieldColumn& column : columns) {
-      if (column.field->place == nullptr || column.index >= cells.size()) continue;
-      const std::string_view cell = cells[column.index];
-      const std::size_t at = cell.find(',');
-      point = point || cell.find('.') != std::string_view::npos;
-      const bool threes = at != std::string_view::npos && cell.size() == at + 4;
-      comma = comma || (at != std::string_view::npos && !threes && parse_number(cell, {","}));
+      if (column.field->place != nullptr && column.index < cells.size()) {
+        commas.see(cells[column.index]);
+      }
     }
     return line < rows;
   });
-  return comma && !point && header.delimiter != ',';
+  return commas.found();
 }
 
 }  // namespace

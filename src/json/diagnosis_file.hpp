@@ -148,10 +148,17 @@ struct DiagnosisFile {
       (double, diameter_um, "diameter", "um"),
       (double, incident_velocity, "incident velocity", "m/s"),
       (int, events, "number of impacts that gives expected odds of 99 to 1 between the two causes, "
-       "as far as their parameters and laws are known"),
-      (Pair, separates, "the two causes"),
+       "whichever is right, as far as their parameters and laws are known"),
+      (bool, expensive, "whether it takes more than 2,000 impacts"),
+      (Pair, separates, "the two causes; law_error: an error of the base model's laws"),
       (OrNull<double>, expected_difference, "expected difference of their e", "1"),
-      (OrNull<double>, expected_log_odds, "expected ln of the odds", "1")) };
+      (OrNull<double>, expected_log_odds, "expected ln of the odds for the right one, averaged over "
+       "which of the two it is", "1"),
+      (OrNull<double>, worst_log_odds, "the same for the less favourable of the two", "1")) };
+
+  struct Inseparable { RECOIL_RESULT(
+      (Pair, rivals, "two causes"),
+      (OrNull<double>, largest_difference, "largest difference of their e within reach", "1")) };
 
   struct Expected { RECOIL_RESULT(
       (std::string, id, "the mechanism"),
@@ -235,7 +242,10 @@ struct DiagnosisFile {
     (Fit, base, "fit of the base model"),
     (OrNull<Fit>, extended, "fit of the extended model"),
     (std::vector<Capture>, capture_velocity, "capture velocities in both models"),
-    (std::vector<Experiment>, next_experiment, "recommended experiments, the least effort first"),
+    (std::vector<Experiment>, next_experiment, "recommended experiments, the best first: the least "
+     "effort for the probability that one of its two causes acts"),
+    (std::vector<Inseparable>, inseparable, "causes that no experiment in reach separates: their e "
+     "differs by less than the errors of their parameters and laws"),
     (std::vector<Expected>, expected_effects, "effects that the stated conditions fix completely"),
     (std::vector<Unstated>, unstated_errors, "errors that may explain the misfit without a cause"),
     (OrAbsent<OwnDesignEntry>, own_design, "with `--rates`: what these points could have shown"),

@@ -48,8 +48,11 @@ Mechanism polydispersity() {
             .upper = 1.0,
             .plausible = {0.0, 0.5,
                           "calibration spheres have 0.01 to 0.05, sieved powders about 0.3"},
-            .starts = {0.02, 0.3}}},
+            .starts = {0.02, 0.3},
+            .stated_by = {none_where(Condition::sizes_equal)}}},
       .mixes_sizes = true,
+      .taken_away =
+          TakenAway{Condition::sizes_equal, 1.0, "take spheres that were measured one by one"},
   });
 }
 

@@ -202,8 +202,7 @@ Table capture_change_table(const Diagnosis& d) {
 Table next_experiment_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
-  const auto* several = d.answer_if<NotSeparable>();
-  if (!several || several->experiments.empty()) return table;
+  if (d.next.list.empty()) return table;
   table.compact = true;
   table.caption =
       "Experiments with the fewest impacts: impacts that make the expected odds between two causes "
@@ -211,11 +210,11 @@ Table next_experiment_table(const Diagnosis& d) {
   table.columns = {
       {"action", "", true},    {"impacts"},        {say("{d}"), sizes.name},  {say("{V}"), "m/s"},
       {"separates", "", true}, {"from", "", true}, {say("difference in {e}")}};
-  for (const NextExperiment& next : several->experiments) {
+  for (const NextExperiment& next : d.next.list) {
     table.rows.push_back(
         {Sentence(doing_words(next)), whole(next.events), Sentence(size_text(next.diameter, sizes)),
-         Number{next.velocity, significant(3)}, Sentence(words_of(next.one)),
-         Sentence(words_of(next.other)), Number{next.difference, signed_fixed(3)}});
+         Number{next.velocity, significant(3)}, Sentence(rival_words(next.one)),
+         Sentence(rival_words(next.other)), Number{next.difference, signed_fixed(3)}});
   }
   return table;
 }

@@ -114,9 +114,7 @@ DiagnosisFile::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet
 
 std::vector<DiagnosisFile::Experiment> experiments_of(const Diagnosis& d) {
   std::vector<DiagnosisFile::Experiment> list;
-  const auto* several = d.answer_if<NotSeparable>();
-  if (!several) return list;
-  for (const NextExperiment& next : several->experiments) {
+  for (const NextExperiment& next : d.next.list) {
     DiagnosisFile::Experiment& out = list.emplace_back();
     out.kind = next.kind;
     if (next.kind == ExperimentKind::condition) {
@@ -129,9 +127,11 @@ std::vector<DiagnosisFile::Experiment> experiments_of(const Diagnosis& d) {
     out.diameter_um = in_um(next.diameter);
     out.incident_velocity = next.velocity;
     out.events = next.events;
+    out.expensive = next.expensive();
     out.separates = {next.one, next.other};
     out.expected_difference = next.difference;
     out.expected_log_odds = next.log_odds;
+    out.worst_log_odds = next.worst_log_odds;
   }
   return list;
 }
@@ -204,6 +204,9 @@ std::string diagnosis_json(const Diagnosis& d) {
                                     .extended = change.extended});
   }
   out.next_experiment = experiments_of(d);
+  for (const Inseparable& pair : d.next.inseparable) {
+    out.inseparable.push_back({{pair.one, pair.other}, pair.difference});
+  }
   for (const ExpectedEffect& effect : d.expected) {
     out.expected_effects.push_back({.id = effect.id,
                                     .dataset = d.datasets[effect.dataset].id,

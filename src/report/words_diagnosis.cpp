@@ -25,8 +25,14 @@ std::string condition_words(Condition condition) {
 }
 
 std::string doing_words(const NextExperiment& experiment) {
-  return experiment.kind == ExperimentKind::condition ? std::string(experiment.doing)
-                                                      : "more impacts";
+  const std::string doing = experiment.kind == ExperimentKind::condition
+                                ? std::string(experiment.doing)
+                                : "more impacts";
+  return experiment.expensive() ? doing + " (expensive)" : doing;
+}
+
+std::string rival_words(const std::string& name) {
+  return name == law_error_as_rival ? "an error of the laws" : words_of(name);
 }
 
 std::string words_of(StructureQuestion question) {

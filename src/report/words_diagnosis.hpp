@@ -18,6 +18,8 @@ std::string condition_words(Condition condition);
 
 /// The action of an experiment: "more impacts", "pump the chamber".
 std::string doing_words(const NextExperiment& experiment);
+/// The name of a rival of an experiment.
+std::string rival_words(const std::string& name);
 
 /// The structure that a test looks for: "residuals bend with velocity".
 std::string words_of(StructureQuestion question);

@@ -108,21 +108,31 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
   return found == d.candidates.end() ? nullptr : &*found;
 }
 
-/// The experiment with the least effort that would separate the causes.
-std::string experiment_words(const Diagnosis& d, const NotSeparable& several) {
-  if (several.experiments.empty()) {
-    return has_one_size(d.base.data)
-               ? "Measure spheres of other diameters: causes differ in how their effect depends on "
-                 "size."
-               : "More impacts of these spheres on this surface would not separate them: measure "
-                 "another pair of materials, or use another instrument.";
+/// Why no experiment in reach separates the causes, and what may.
+std::string inseparable_words(const Diagnosis& d) {
+  if (has_one_size(d.base.data)) {
+    return "Measure spheres of other diameters: causes differ in how their effect depends on size.";
   }
-  const NextExperiment& next = several.experiments.front();
+  if (d.next.inseparable.empty()) return "";
+  const Inseparable& pair = d.next.inseparable.front();
+  return fmt::format(
+      "No impacts of these spheres on this surface would separate {} from {}: their e differs by "
+      "at "
+      "most {:.1g}, less than the errors of their parameters and laws. Measure another pair of "
+      "materials, or use another instrument.",
+      rival_words(pair.one), rival_words(pair.other), pair.difference);
+}
+
+/// The best experiment to separate the causes, or why there is none.
+std::string experiment_words(const Diagnosis& d) {
+  if (d.next.list.empty()) return inseparable_words(d);
+  const NextExperiment& next = d.next.list.front();
   const std::string impacts = fmt::format("{} of {} at {:.3g} m/s", counted(next.events, "impact"),
                                           diameter_words(next.diameter), next.velocity);
-  const std::string difference = fmt::format(
-      "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
-      next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
+  const std::string difference =
+      fmt::format("with {}, e is {} there by {:.2g} than with {}{}", rival_words(next.one),
+                  next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference),
+                  rival_words(next.other), next.expensive() ? "; that is expensive" : "");
   if (next.kind == ExperimentKind::condition) {
     return fmt::format("To decide, {} and measure {}: {}.", next.doing, impacts, difference);
   }
@@ -401,6 +411,17 @@ std::string if_exact_words(const Diagnosis& d) {
                                  : ", most similar to " + cause_words(ids, " or "));
 }
 
+/// The odds for the best cause against an error of the laws; empty without a cause.
+std::string odds_words(const Diagnosis& d) {
+  const ExtendedModel* const extended = d.extended();
+  if (extended == nullptr || !(extended->cause.delta_aicc < 0.0)) return "";
+  constexpr double most = 1e6;
+  const double odds = std::exp(-0.5 * extended->cause.delta_aicc);
+  return fmt::format("The odds for {} against an error of the laws alone are {} to 1.",
+                     words_of(extended->cause.candidate.name()),
+                     odds > most ? "more than a million" : fmt::format("{:.2g}", odds));
+}
+
 /// How well these points can tell the cause from its nearest rival; empty without a single cause.
 std::string separation_words(const Diagnosis& d) {
   std::vector<std::string> ids = d.named().empty() ? d.rivals() : d.named();
@@ -545,12 +566,14 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
     sentences.push_back(gain_words(d));
   } else if (const auto* several = d.answer_if<NotSeparable>()) {
     sentences.push_back(several_words(d, *several));
-    sentences.push_back(experiment_words(d, *several));
   } else {
     sentences.push_back(unexplained_words(d));
     sentences.push_back(advice_words(d));
   }
   sentences.push_back(if_exact_words(d));
+  if (d.answer_if<NotSeparable>() || !d.next.list.empty()) {
+    sentences.push_back(experiment_words(d));
+  }
   std::erase(sentences, "");
   const std::vector<std::string> rates = rates_words(d);
   sentences.insert(sentences.end(), rates.begin(), rates.end());
@@ -568,6 +591,7 @@ std::vector<std::string> answer_notes(const Diagnosis& d) {
                                 parameters_words(extended->cause)));
     if (!d.answer_if<CauseNamed>()) notes.push_back(gain_words(d));
   }
+  notes.push_back(odds_words(d));
   notes.push_back(separation_words(d));
   if (!d.answer_if<Unexplained>()) notes.push_back(rival_errors_words(d));
   const bool shown = !d.answer_if<Adequate>() && !where_words(d).empty();

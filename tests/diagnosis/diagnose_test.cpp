@@ -255,6 +255,32 @@ TEST(Diagnose, SaysThatFewPointsAreNoEvidence) {
   }
 }
 
+/// Where only exact laws see something, an experiment tells it from an error of the laws.
+TEST(Diagnose, RecommendsHowToTellAHintFromAnErrorOfTheLaws) {
+  int hints = 0;
+  for (const double bend : {0.02, 0.03, 0.04}) {
+    // The loss 1 - e^2 is wrong by a wave in ln V.
+    const auto bent = [bend](const ImpactPoint& point, double e) {
+      const double wave = 1.0 + bend * std::sin(2.0 * std::log(point.incident_velocity));
+      return e > 0.0 ? std::sqrt(std::max(1.0 - (1.0 - e * e) * wave, 0.0)) : 0.0;
+    };
+    const Diagnosis found = diagnose(synthetic::spec(), {noisy(6, 0.002, bent)}, quick());
+    if (found.verdict() != Verdict::adequate || !found.if_exact) continue;
+    if (found.if_exact->listed.empty()) continue;
+    ++hints;
+    const auto with_laws = [](const auto& pair) {
+      return pair.one == law_error_as_rival || pair.other == law_error_as_rival;
+    };
+    EXPECT_TRUE(std::ranges::any_of(found.next.list, with_laws) ||
+                std::ranges::any_of(found.next.inseparable, with_laws));
+    for (const NextExperiment& next : found.next.list) {
+      EXPECT_GE(next.worst_log_odds, std::log(99.0) * (1.0 - 1e-12));
+      EXPECT_LE(next.worst_log_odds, next.log_odds);
+    }
+  }
+  EXPECT_GT(hints, 0);
+}
+
 TEST(Diagnose, DoesNotDependOnTheNumberOfThreads) {
   DiagnosisOptions one = quick();
   one.threads = 1;

@@ -33,7 +33,7 @@ class NextExperiments : public SearchWithExactLaws {
   std::vector<NextExperiment> of_first(std::size_t count) const {
     std::vector<const CandidateResult*> first;
     for (std::size_t k = 0; k < count; ++k) first.push_back(&rivals_[k]);
-    return next_experiments(*base_, first);
+    return next_experiments(*base_, first).list;
   }
 
   double restitution(const std::string& name, const NextExperiment& at) const {

@@ -276,6 +276,7 @@ TEST(Forms, DelimitersCommentsTitlesAndMarks) {
   const std::vector<std::pair<std::string, bool>> forms = {
       {"run,D (um),Vi (m/s),e\na,4.9,2.12,0.57\na,4.9,3.1,0.73\n", false},
       {"run;D (um);Vi (m/s);e\na;4,9;2,12;0,57\na;4,9;3,10;0,73\n", true},
+      {"run;D (um);Vi (m/s);e\na;4,9;2,12;0,57\na;4,9;3,10;0,73\n", false},
       {"run\tD (um)\tVi (m/s)\te\na\t4.9\t2.12\t0.57\na\t4.9\t3.1\t0.73\n", false},
       {"sep=;\nrun;D (um);Vi (m/s);e\na;4.9;2.12;0.57\na;4.9;3.1;0.73\n", false},
       {"sep=|\r\nrun|D (um)|Vi (m/s)|e\r\na|4.9|2.12|0.57\r\na|4.9|3.1|0.73\r\n", false},
@@ -397,7 +398,7 @@ TEST(Forms, WhatIsAmbiguousIsAsked) {
   EXPECT_THAT(
       answer("V,e\n\"1,250\",0.5\n", map),
       HasSubstr("write 1250 if the comma groups thousands, 1.250 if it is a decimal comma"));
-  EXPECT_THAT(answer("V;e\n1,25;0,5\n", map), HasSubstr("--decimal-comma"));
+  EXPECT_THAT(answer("V;e\n1,250;0,500\n", map), HasSubstr("--decimal-comma"));
   EXPECT_THAT(answer("V,e\n1,0.5\n#2,0.5\n", map), HasSubstr("input.csv:3:1: a row that begins"));
   EXPECT_THAT(answer("V,e,s,n\n1,0.5,0.1,4\n", map + ",restitution_sd=s,events=n"),
               HasSubstr("is it that of one impact or of their mean?"));

@@ -113,6 +113,8 @@ TEST(StatedValues, SomeConditionsOnlyTakeAway) {
   EXPECT_EQ(stated("velocity_offset", 0, Condition::velocities_calibrated, 1.0), 0.0);
   EXPECT_EQ(stated("velocity_offset", 0, Condition::velocities_calibrated, 0.0), std::nullopt);
   EXPECT_EQ(stated("size_calibration", 0, Condition::sizes_calibrated, 1.0), 0.0);
+  EXPECT_EQ(stated("polydispersity", 0, Condition::sizes_equal, 1.0), 0.0);
+  EXPECT_EQ(stated("polydispersity", 0, Condition::sizes_equal, 0.0), std::nullopt);
   EXPECT_EQ(stated("height_origin", 0, Condition::velocities_calibrated, 1.0), 0.0);
   EXPECT_EQ(stated("asperity_loss", 0, Condition::surface_rms_roughness, 5e-10), 0.0);
   EXPECT_EQ(stated("asperity_loss", 0, Condition::surface_rms_roughness, 5e-8), std::nullopt);

@@ -94,7 +94,7 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
 /// Asks, and does what is advised, until a cause is certain or nothing is advised.
 void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
   FurtherImpacts further = diagnose(made, binary, a);
-  while (a.rounds < a.order.rounds && a.verdict == "not_separable" && a.shared_cause.empty() &&
+  while (a.rounds < a.order.rounds && a.verdict != "cause_named" && a.shared_cause.empty() &&
          further.events > 0) {
     take_further(made, further, static_cast<std::uint64_t>(a.rounds));
     ++a.rounds;

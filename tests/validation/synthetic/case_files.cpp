@@ -58,7 +58,8 @@ Json fields_of(const Case& made) {
   }
   for (const std::string& condition : changed_conditions(made)) {
     const bool plain = condition == "neutralised" || condition == "relative_humidity" ||
-                       condition == "velocities_calibrated" || condition == "sizes_calibrated";
+                       condition == "velocities_calibrated" || condition == "sizes_calibrated" ||
+                       condition == "sizes_equal";
     const char* const unit = plain ? "1" : condition == "ambient_pressure" ? "Pa" : "m";
     fields.push_back(field(condition.c_str(), "number", unit, "of the impacts of this point"));
   }

@@ -39,6 +39,7 @@ std::vector<StatedCondition> conditions_behind(const std::string& effect, const 
     return {{"velocities_calibrated", 0.0}};
   }
   if (effect == "size_calibration") return {{"sizes_calibrated", 0.0}};
+  if (effect == "polydispersity") return {{"sizes_equal", 0.0}};
   return {};
 }
 
@@ -53,6 +54,7 @@ StatedCondition change_against(const std::string& effect) {
     return {"velocities_calibrated", 1.0};
   }
   if (effect == "size_calibration") return {"sizes_calibrated", 1.0};
+  if (effect == "polydispersity") return {"sizes_equal", 1.0};
   return {};
 }
 
@@ -75,6 +77,8 @@ Effects under(const StatedCondition& condition, Effects effects) {
     effects.height_error = 0.0;
   } else if (condition.name == "sizes_calibrated" && condition.value > 0.0) {
     effects.diameter_error = 0.0;
+  } else if (condition.name == "sizes_equal" && condition.value > 0.0) {
+    effects.size_spread = 0.0;
   }
   return effects;
 }
