@@ -117,11 +117,11 @@ struct CauseNamed {
 
 /// Several explanations that these data cannot distinguish.
 struct NotSeparable {
-  ExtendedModel extended;                   ///< the base model with the best of them
-  std::vector<std::string> rivals;          ///< the causes in any of them
-  std::vector<std::string> alone;           ///< if the best is a pair: single causes that are close
-  std::vector<std::string> common;          ///< the causes in all of them
-  std::string shared_cause;                 ///< the cause of which all rivals are laws; empty: none
+  ExtendedModel extended;           ///< the base model with the best of them
+  std::vector<std::string> rivals;  ///< the causes in any of them
+  std::vector<std::string> alone;   ///< if the best is a pair: single causes that are close
+  std::vector<std::string> common;  ///< the causes in all of them
+  std::string shared_cause;         ///< the cause of which all rivals are laws; empty: none
 };
 
 /// The residuals have the shape of these causes, which fit best but are implausible, or cannot be
@@ -154,7 +154,8 @@ struct Diagnosis {
   /// The answer with exact laws; nullopt if a cause is named without them, or for the answer alone.
   std::optional<IfExact> if_exact;
   /// Experiments that distinguish the rivals. If no cause is named or listed but exact laws would
-  /// leave structure: the causes that exact laws list, and the base model with an error of its laws.
+  /// leave structure: the causes that exact laws list, and the base model with an error of its
+  /// laws.
   NextExperiments next;
   Structure structure;  ///< structure of the base model's residuals
   /// Points that were set aside; the other members are without them.

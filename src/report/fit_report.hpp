@@ -17,7 +17,8 @@ inline constexpr const char* mean_curve_words =
     "The curve is the mean of the rebounds that are seen: it rises again where slow ones are not.";
 
 /// e against V of the whole fit: bands, curves and points in one plot, with one colour and mark for
-/// each diameter or, in a fit of several datasets, for each dataset, with one dash for each diameter.
+/// each diameter or, in a fit of several datasets, for each dataset, with one dash for each
+/// diameter.
 /// @param width, height of the picture [px]
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height);
 

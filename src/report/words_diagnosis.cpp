@@ -25,9 +25,8 @@ std::string condition_words(Condition condition) {
 }
 
 std::string doing_words(const NextExperiment& experiment) {
-  const std::string doing = experiment.kind == ExperimentKind::condition
-                                ? std::string(experiment.doing)
-                                : "more impacts";
+  const std::string doing =
+      experiment.kind == ExperimentKind::condition ? std::string(experiment.doing) : "more impacts";
   return experiment.expensive() ? doing + " (expensive)" : doing;
 }
 
