@@ -44,7 +44,7 @@ plot::Plot histogram_plot(const std::vector<double>& values, const std::string& 
 plot::Plot restitution_plot(plot::Range velocity) {
   plot::Plot shown;
   shown.x = velocity_axis(velocity);
-  shown.y = restitution_axis(1.05);
+  shown.y = restitution_axis({0.0, 1.05});
   shown.key = plot::KeyPlace::below;
   return shown;
 }
