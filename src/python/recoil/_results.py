@@ -530,6 +530,7 @@ class Diagnosis(_Reported):
     candidates: list[Facts]
     gain: Optional[Facts]
     next_experiment: list[Facts]
+    inseparable: list[Facts]
     warnings: list[str]
 
     def __str__(self) -> str:
