@@ -175,10 +175,13 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
   }
   print_text("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
   print_text("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
-  print_line(fmt::format(
-      "groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)", groups.alpha,
-      groups.gamma, groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
-      c.velocity * std::pow(groups.beta, 1.25)));
+  const std::string adhesion =
+      groups.beta > 0.0
+          ? fmt::format("V / V_a = {:.6g} (V_a = {:.6g} m/s)", std::pow(groups.beta, -1.25),
+                        c.velocity * std::pow(groups.beta, 1.25))
+          : "V_a = 0 (no adhesion)";
+  print_line(fmt::format("groups: C_H V = {:.6g}, C_A V = {:.6g}, {}", groups.alpha, groups.gamma,
+                         adhesion));
   print_line(
       fmt::format("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}",
                   c.stiffness / units::GPa, c.adhesion_force, to_string(phase)));

@@ -109,7 +109,7 @@ class HelpFormatter : public CLI::Formatter {
 
  private:
   static std::string entry(const std::string& name, const std::string& meaning) {
-    std::string out = "  " + name;
+    std::string out = "  " + wrap(name, terminal_columns - 2, 6);
     if (meaning.empty()) return out + '\n';
     out += out.size() < meanings_from ? std::string(meanings_from - out.size(), ' ')
                                       : '\n' + std::string(meanings_from, ' ');

@@ -305,6 +305,19 @@ Section citation_section(const Analysis& a) {
       {equation_of(a), Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)});
 }
 
+/// The causes and experiments of a diagnosis, because a page may travel alone. Its own page has the
+/// rest.
+std::vector<Section> folded_diagnosis(const Diagnosis& diagnosis) {
+  std::vector<Section> kept;
+  for (Section& section : diagnosis_sections(diagnosis)) {
+    if (empty(section) || (section.id != "causes" && section.id != "next")) continue;
+    section.title = Sentence("Diagnosis: ") + section.title;
+    section.id = "diagnosis-" + section.id;
+    kept.push_back(std::move(section));
+  }
+  return kept;
+}
+
 Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
@@ -353,25 +366,19 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     sections.push_back(shown_section("calibrations", "Two points and all points",
                                      {two_point_table(a, a.uncertainty.two_point.front())}));
   }
-  if (diagnosis != nullptr)
-    sections.push_back(
-        diagnosis_summary(*diagnosis, diagnosis_page.empty() ? "" : "#diagnosis-causes"));
+  std::vector<Section> diagnosed;
+  if (diagnosis != nullptr && !diagnosis_page.empty()) diagnosed = folded_diagnosis(*diagnosis);
+  if (diagnosis != nullptr) {
+    const std::string details = diagnosed.empty() ? "" : "#" + diagnosed.front().id;
+    sections.push_back(diagnosis_summary(*diagnosis, details));
+  }
   sections.push_back(shown_section("warning", "", first_warning(warnings)));
   sections.push_back(sizes_section(a, std::move(panels)));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));
   if (!warnings.empty()) warnings.erase(warnings.begin());  // the answer shows it
   sections.push_back(warnings_section(a, std::move(warnings)));
-  if (diagnosis != nullptr && !diagnosis_page.empty()) {  // a page may travel alone
-    for (Section& section : diagnosis_sections(*diagnosis)) {
-      if (section.id == "answer") continue;
-      section.title = section.title.empty() ? Sentence("Diagnosis: what it compares")
-                                            : Sentence("Diagnosis: ") + section.title;
-      section.id = "diagnosis-" + section.id;
-      section.importance = Importance::detail;
-      sections.push_back(std::move(section));
-    }
-  }
+  sections.insert(sections.end(), diagnosed.begin(), diagnosed.end());
   sections.push_back(citation_section(a));
   sections.push_back(inputs_section(a));
   return sections;

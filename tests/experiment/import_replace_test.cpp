@@ -195,7 +195,8 @@ TEST(Replace, TheCommandLine) {
               "--reading-error", "0.5%", "--source", "Wall et al. (1990), figure 7"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("= digitised"));
-  EXPECT_THAT(run.out, HasSubstr("Wall et al. (1990), figure 7"));
+  EXPECT_THAT(place.read("datasets/wall1990-molybdenum/datapackage.json"),
+              HasSubstr("Wall et al. (1990), figure 7"));
   EXPECT_EQ(at.run({"check", into}).status, 0);
   const support::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
   EXPECT_EQ(wrong.status, 2);

@@ -398,7 +398,7 @@ TEST(Forms, WhatIsAmbiguousIsAsked) {
   EXPECT_THAT(
       answer("V,e\n\"1,250\",0.5\n", map),
       HasSubstr("write 1250 if the comma groups thousands, 1.250 if it is a decimal comma"));
-  EXPECT_THAT(answer("V;e\n1,250;0,500\n", map), HasSubstr("--decimal-comma"));
+  EXPECT_THAT(answer("V;e\n1,250;0,500\n", map), HasSubstr("1.250 if it is a decimal comma"));
   EXPECT_THAT(answer("V,e\n1,0.5\n#2,0.5\n", map), HasSubstr("input.csv:3:1: a row that begins"));
   EXPECT_THAT(answer("V,e,s,n\n1,0.5,0.1,4\n", map + ",restitution_sd=s,events=n"),
               HasSubstr("is it that of one impact or of their mean?"));

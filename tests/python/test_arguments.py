@@ -63,7 +63,7 @@ def functions(here):
     }
 
 
-def unanswered(inputs, options):
+def unanswered(inputs, *options):
     """Instead of a fit: its arguments are read already."""
     raise recoil.ComputationError("no fit")
 
@@ -72,7 +72,7 @@ def test_every_type_of_every_argument(here, monkeypatch):
     tried = functions(here)
     monkeypatch.setattr(recoil._recoil, "fit", unanswered)
     monkeypatch.setattr(recoil._recoil, "coverage", unanswered)
-    monkeypatch.setattr(recoil._recoil.Analysis, "diagnose", lambda self, options: unanswered(self, options))
+    monkeypatch.setattr(recoil._recoil.Analysis, "diagnose", lambda self, *options: unanswered(self, options))
     for name, (function, arguments) in tried.items():
         parameters = inspect.signature(function).parameters
         for parameter in parameters.values():

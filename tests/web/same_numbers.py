@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Compares what build/web/recoil.html computes in headless Chromium, opened from the disk, with the
+program: every shipped fit with 199 replicates, one diagnosis, and one import of each format. Writes
+reports/web.md. Exit status 1 if a parameter, an error or an interval differs by more than 1e-9, if
+words differ, or if the page makes a request.
+
+usage: same_numbers.py [FIT...]      (default: every fit of one shipped dataset)
+"""
+
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+root = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(root / "tests/report"))
+import open_in_chromium as chromium  # noqa: E402
+
+chromium.TIME_LIMIT = 900
+PROGRAM = root / "build/release/recoil"
+PAGE = root / "build/web/recoil.html"
+SAME = 1e-9
+# Numbers that say how a search went, when, or with what.
+ASIDE = ("seconds", "evaluations", "iterations", "threads", "starts", "version", "timing", "curve")
+
+BALL = ["--ball", "table-tennis"]
+
+
+def bouncing():
+    """A film of a ball that falls 0.5 m and bounces with e = 0.9, 100 frames in a second."""
+    rows, start, speed, height = ["t,h"], 0.0, 0.0, 0.5
+    for k in range(240):
+        t = 0.01 * k
+        h = height + speed * (t - start) - 4.903 * (t - start) ** 2
+        if h < 0.0:
+            speed_at = math.sqrt(speed ** 2 + 2 * 9.806 * height)
+            start += (speed + speed_at) / 9.806
+            speed, height = 0.9 * speed_at, 0.0
+            h = speed * (t - start) - 4.903 * (t - start) ** 2
+        rows.append(f"{t:.2f},{h:.4f}")
+    return "\n".join(rows) + "\n"
+
+
+IMPORTS = {
+    "csv": ("V;e\n2,0;0,5\n3,1;0,62\n4,2;0,70\n6,0;0,75\n9,5;0,78\n", ["import", "--into", "mine", "--map",
+            "incident_velocity=V:m/s,restitution=e", "--diameter", "4.9um", "--particle", "polystyrene",
+            "--surface", "molybdenum", "--provenance", "measured"]),
+    "heights": ("h0,h1\n30,24\n30,23.8\n60,47\n60,46.5\n90,69\n",
+                ["bounce", "--map", "drop_height=h0:cm,rebound_height=h1:cm", *BALL]),
+    "intervals": ("t\n0.45\n0.41\n0.372\n0.338\n0.307\n", ["bounce", "--map", "interval=t:s", *BALL]),
+    "tops": ("h\n60\n47\n37\n29\n", ["bounce", "--map", "top=h:cm", *BALL]),
+    "rest": ("h,t\n30,5.1\n30,5.0\n60,7.2\n", ["bounce", "--map", "drop_height=h:cm,rest_time=t:s", *BALL]),
+    "blocks": ("n,t\n5,2.1\n5,1.4\n5,0.9\n", ["bounce", "--map", "bounces=n,block_time=t:s", *BALL]),
+    "track": (bouncing(), ["bounce", "--map", "time=t:s,height=h:m", *BALL]),
+    "webplotdigitizer": ("a,\nX,Y\n2,0.5\n3,0.62\n4,0.7\n6,0.75\n", ["import", "--into", "mine", "--diameter",
+                         "4.9um", "--particle", "polystyrene", "--surface", "molybdenum"]),
+}
+
+
+def numbers(node, path=""):
+    """Every number, word and truth value of a JSON tree with its path."""
+    if isinstance(node, dict):
+        for key, inner in node.items():
+            yield from numbers(inner, f"{path}.{key}" if path else key)
+    elif isinstance(node, list):
+        for i, inner in enumerate(node):
+            yield from numbers(inner, f"{path}[{i}]")
+    else:
+        yield path, node
+
+
+def differences(native, tab):
+    """(count of numbers, largest relative difference, [(path, native, tab) that differ])."""
+    one, other = dict(numbers(native)), dict(numbers(tab))
+    wrong, largest, count = [], 0.0, 0
+    for path in sorted(one.keys() | other.keys()):
+        if any(word in path for word in ASIDE):
+            continue
+        a, b = one.get(path), other.get(path)
+        if isinstance(a, float) and isinstance(b, (int, float)):
+            count += 1
+            scale = max(abs(a), abs(b))
+            by = abs(a - b) / scale if scale > 0 and math.isfinite(scale) else 0.0
+            largest = max(largest, by)
+            if by > SAME:
+                wrong.append((path, a, b))
+        elif a != b:
+            wrong.append((path, a, b))
+    return count, largest, wrong
+
+
+class Tab:
+    """The page in Chromium."""
+
+    def __init__(self):
+        program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))))
+        self.browser = chromium.Browser(program)
+        self.session, _ = chromium.open_page(self.browser, PAGE, 1280, 900, False)
+        self.evaluate("new Promise((done) => { const wait = setInterval(() => {"
+                      " if (!worker && document.querySelector('#materials option')) {"
+                      " clearInterval(wait); done(1); } }, 100); })")
+
+    def evaluate(self, expression):
+        answer = self.browser.call("Runtime.evaluate", self.session, expression=expression,
+                                   awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in answer:
+            raise RuntimeError(json.dumps(answer["exceptionDetails"])[:600])
+        return answer["result"].get("value")
+
+    def run(self, files, args):
+        """What the command prints and writes: {status, out, err, seconds, files}."""
+        return json.loads(self.evaluate(
+            f"(async () => {{ files = new Map(Object.entries({json.dumps(files)}).map(([p, t]) => [p, bytes_of(t)]));"
+            f" const done = await run({json.dumps(args)});"
+            " done.files = Object.fromEntries([...files].map(([p, b]) => [p, text_of(b)]));"
+            " return JSON.stringify(done); })()"))
+
+
+def native(files, args):
+    """The same by the program."""
+    with tempfile.TemporaryDirectory() as folder:
+        for path, text in files.items():
+            target = pathlib.Path(folder, path)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text)
+        begin = time.time()
+        done = subprocess.run([str(PROGRAM), *args], cwd=folder, capture_output=True, text=True)
+        seconds = time.time() - begin
+        written = {str(path.relative_to(folder)): path.read_text(errors="replace")
+                   for path in pathlib.Path(folder).rglob("*") if path.is_file()}
+        return {"status": done.returncode, "out": done.stdout.rstrip("\n"), "seconds": seconds, "files": written}
+
+
+def compared(name, tab, files, args, result, rows, listed):
+    """Adds the row of one command; the JSON file `result`, or what is printed without one."""
+    one, other = native(files, args), tab.run(files, args)
+    same_words = one["status"] == other["status"] and (bool(result) or one["out"] == other["out"])
+    count, largest, wrong = 0, 0.0, []
+    if result:
+        count, largest, wrong = differences(*(json.loads(r["files"].get(result, "null")) for r in (one, other)))
+    if not same_words:
+        wrong.append(("status or words", f"{one['status']} {one['out'][:200]}",
+                      f"{other['status']} {other['out'][:200]}{other['err'][:300]}"))
+    rows.append((name, count, largest, len(wrong), one["seconds"], other["seconds"]))
+    listed += [(name, *each) for each in wrong]
+    print(f"{name}: {count} numbers, largest difference {largest:.1e}, {len(wrong)} differ; "
+          f"{one['seconds']:.1f} s, in the tab {other['seconds']:.1f} s", flush=True)
+
+
+def main():
+    tab = Tab()
+    rows, listed = [], []
+    fits = sys.argv[1:] or [fit.stem for fit in sorted((root / "fits").glob("*.toml"))
+                            if (root / "datasets" / fit.stem).is_dir()]
+    def of_fit(name):
+        paths = [root / f"fits/{name}.toml", *(root / f"datasets/{name}/{file}"
+                                               for file in ("datapackage.json", "points.csv"))]
+        return {str(path.relative_to(root)): path.read_text() for path in paths}
+    for name in fits:
+        compared(name, tab, of_fit(name),
+                 ["fit", f"fits/{name}.toml", "--out", "out", "--replicates", "199", "--threads", "1"],
+                 "out/fit.json", rows, listed)
+    compared("diagnosis of " + fits[-1], tab, of_fit(fits[-1]),
+             ["diagnose", f"fits/{fits[-1]}.toml", "--out", "out", "--threads", "1"], "out/diagnosis.json", rows, listed)
+    for name, (text, args) in IMPORTS.items():
+        compared("import of " + name, tab, {"a.csv": text}, [args[0], "a.csv", "--format", name, *args[1:]],
+                 "", rows, listed)
+    requests = chromium.complaints_in(tab.browser.events, PAGE.resolve().as_uri())
+    tab.browser.close()
+    lines = ["# recoil in the browser: the same numbers", "",
+             "Made by `./run web --check`: build/web/recoil.html in headless Chromium, opened from the disk, beside the",
+             "program. A number differs if it does so by more than 1e-9.", "",
+             "| command | numbers | largest relative difference | differ | program [s] | tab [s] |", "|---|---|---|---|---|---|"]
+    lines += [f"| {n} | {c} | {l:.1e} | {w} | {s:.2f} | {t:.2f} |" for n, c, l, w, s, t in rows]
+    lines += ["", f"What the browser said about the page: {'; '.join(sorted(set(requests))) or 'nothing; it made no request'}.", ""]
+    if listed:
+        lines += ["| command | what differs | program | tab |", "|---|---|---|---|"]
+        lines += [f"| {n} | `{p}` | {str(a)[:60]} | {str(b)[:60]} |".replace("\n", " ") for n, p, a, b in listed[:200]]
+    (root / "reports/web.md").write_text("\n".join(lines).rstrip("\n") + "\n")
+    return 1 if listed or requests else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
