@@ -305,12 +305,11 @@ Section citation_section(const Analysis& a) {
       {equation_of(a), Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)});
 }
 
-/// The causes and experiments of a diagnosis, because a page may travel alone. Its own page has the
-/// rest.
+/// The causes that a diagnosis tried, because a page may travel alone. Its own page has the rest.
 std::vector<Section> folded_diagnosis(const Diagnosis& diagnosis) {
   std::vector<Section> kept;
   for (Section& section : diagnosis_sections(diagnosis)) {
-    if (empty(section) || (section.id != "causes" && section.id != "next")) continue;
+    if (section.id != "causes" || empty(section)) continue;
     section.title = Sentence("Diagnosis: ") + section.title;
     section.id = "diagnosis-" + section.id;
     kept.push_back(std::move(section));
