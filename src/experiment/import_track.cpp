@@ -202,7 +202,8 @@ std::vector<Arc> arcs_of(const std::vector<Sample>& samples,
     arc.end = k == impacts.size() ? samples.size() : impacts[k];
     const auto first = samples.begin() + static_cast<std::ptrdiff_t>(arc.begin);
     const auto last = samples.begin() + static_cast<std::ptrdiff_t>(arc.end);
-    const auto top = std::ranges::max_element(first, last, {}, &Sample::height);
+    const auto top = std::max_element(
+        first, last, [](const Sample& a, const Sample& b) { return a.height < b.height; });
     if (k == 0 && first != last) {
       const double drop =
           std::max(6.0 * noise_of(samples), 0.02 * (top->height - std::prev(last)->height));
