@@ -11,6 +11,8 @@
 namespace recoil {
 namespace {
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
+// A terminal that cannot redraw a line gets a new one this often; a log gets fewer.
+constexpr Progress::Pace pace_of_lines = {std::chrono::seconds(2), std::chrono::seconds(2)};
 
 /// True if standard error is a terminal that can redraw a line.
 bool can_redraw() {
@@ -23,7 +25,7 @@ Progress::Progress(std::string label, std::size_t total, Pace pace)
     : label_(std::move(label)),
       total_(total),
       terminal_(can_redraw()),
-      pace_(pace),
+      pace_(isatty(STDERR_FILENO) == 1 ? pace_of_lines : pace),
       start_(std::chrono::steady_clock::now()),
       due_(terminal_ ? start_ : start_ + pace_.first) {}
 

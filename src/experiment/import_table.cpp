@@ -9,6 +9,7 @@
 #include <iterator>
 #include <regex>
 #include <set>
+#include <span>
 
 #include "core/files.hpp"
 #include "data/text.hpp"
@@ -442,7 +443,7 @@ void ImportTable::read_header(bool transposed) {
   for (CsvField& cell : header_) cell.text = trimmed(with_plain_blanks(cell.text));
   const bool labelled = transposed && header_.size() > 1;
   named_ = !std::ranges::all_of(
-      header_.begin() + (labelled ? 1 : 0), header_.end(),
+      std::span(header_).subspan(labelled ? 1 : 0),
       [&](const CsvField& cell) { return cell.text.empty() || parse_number(cell.text, format_); });
   if (named_) {
     rows_.erase(rows_.begin());

@@ -106,7 +106,8 @@ web_library(web_fmt fmtlib-* src/format.cc src/os.cc)
 add_library(fmt::fmt ALIAS web_fmt)
 
 # SHA. Its sources need a declaration of lseek that they only include where configure found it.
-web_library(web_md libmd-* src/sha1.c src/sha1hl.c src/sha2.c src/sha2hl.c)
+web_library(web_md libmd-* src/md5.c src/md5hl.c src/sha1.c src/sha1hl.c src/sha2.c src/sha256hl.c
+  src/sha512hl.c)
 target_compile_options(web_md PRIVATE -include unistd.h)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/md/config.h CONTENT "#define HAVE_STDINT_H 1\n")
 target_include_directories(web_md PRIVATE ${CMAKE_BINARY_DIR}/md ${web_md_folder}/include ${web_md_folder}/src)
@@ -122,7 +123,7 @@ target_compile_definitions(web_z PRIVATE HAVE_UNISTD_H)
 # Workbooks are compressed by deflate and not encrypted.
 web_library(web_zip libzip-* lib/zip_*.c)
 get_target_property(sources web_zip SOURCES)
-list(FILTER sources EXCLUDE REGEX "win32|uwp|_win|commoncrypto|gnutls|mbedtls|openssl|bzip2|_xz|winzip_aes")
+list(FILTER sources EXCLUDE REGEX "win32|uwp|winzip|crypto_win|commoncrypto|gnutls|mbedtls|openssl|bzip2|_xz")
 file(STRINGS ${web_zip_folder}/lib/zip.h errors REGEX "^#define ZIP_ER_[A-Z_]+ [0-9]+ +/\\* [NSZ] .* \\*/")
 set(words)
 set(kinds)
