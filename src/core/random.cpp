@@ -1,7 +1,13 @@
 #include "core/random.hpp"
 
+#ifdef __EMSCRIPTEN__
+#define __aarch64__ 1  // Random123 refuses processors that it does not know
+#endif
 #include <Random123/philox.h>
 #include <Random123/u01fixedpt.h>
+#ifdef __EMSCRIPTEN__
+#undef __aarch64__
+#endif
 #include <gsl/gsl_cdf.h>
 
 #include <cassert>

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kStages = {
     "core",     "data",     "experiment", "impact",  "mechanism", "estimate", "uncertainty",
     "coverage", "predict",  "diagnosis",  "plan",    "analysis",  "json",     "export",
-    "plot",     "document", "report",     "options", "cli",       "python"};
+    "plot",     "document", "report",     "options", "cli",       "python",   "web"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -

@@ -1,0 +1,38 @@
+// Runs one command of recoil on a memory file system. A fresh program for every command.
+function all_files(FS, folder, found) {
+  for (const name of FS.readdir(folder)) {
+    if (name === '.' || name === '..') continue;
+    const path = folder + '/' + name;
+    if (FS.isDir(FS.stat(path).mode)) all_files(FS, path, found);
+    else found.push([path.slice('/here/'.length), FS.readFile(path)]);
+  }
+  return found;
+}
+onmessage = async ({ data }) => {
+  const say = (stream) => (text) => postMessage({ stream, text });
+  const program = await Recoil({
+    noInitialRun: true,
+    print: say('out'),
+    printErr: say('err'),
+    preRun: [(m) => Object.assign(m.ENV, { TERM: 'dumb', NO_COLOR: '1', HOME: '/here' })],
+    instantiateWasm: (imports, done) => {
+      WebAssembly.instantiate(data.module, imports).then((instance) => done(instance));
+      return {};
+    },
+  });
+  const { FS } = program;
+  FS.mkdirTree('/here');
+  for (const [path, bytes] of data.files) {
+    FS.mkdirTree('/here/' + path.split('/').slice(0, -1).join('/'));
+    FS.writeFile('/here/' + path, bytes);
+  }
+  FS.chdir('/here');
+  let status = 3;
+  try {
+    status = program.callMain(data.args);
+  } catch (e) {
+    if (e && e.name === 'ExitStatus') status = e.status;
+    else say('err')('recoil: stopped: ' + e);
+  }
+  postMessage({ status, files: all_files(FS, '/here', []) });
+};
