@@ -14,12 +14,6 @@ std::atomic<bool> shown_here{false};
 thread_local bool silent_here = false;
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 
-/// A terminal that cannot redraw a line gets a new one at least every two seconds; a log fewer.
-Progress::Pace shorter(Progress::Pace pace) {
-  constexpr std::chrono::milliseconds longest = std::chrono::seconds(2);
-  return {std::min(pace.first, longest), std::min(pace.next, longest)};
-}
-
 /// True if standard error is a terminal that can redraw a line.
 bool can_redraw() {
   const char* const kind = std::getenv("TERM");
@@ -38,7 +32,7 @@ Progress::Progress(std::string label, std::size_t total, Pace pace)
       total_(total),
       silent_(silent_here || !shown_here),
       terminal_(!silent_ && can_redraw()),
-      pace_(isatty(STDERR_FILENO) == 1 ? shorter(pace) : pace),
+      pace_(pace),
       start_(std::chrono::steady_clock::now()),
       due_(terminal_ ? start_ : start_ + pace_.first) {}
 
