@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <utility>
 
+#ifdef _LIBCPP_VERSION
+
 namespace std {
 
 #if !defined(__cpp_lib_bit_cast)
@@ -144,4 +146,5 @@ constexpr auto min(Range&& range, Compare compare = {}, Projection of = {}) {
 }  // namespace ranges
 }  // namespace std
 
+#endif
 #endif
