@@ -21,7 +21,7 @@ install(EXPORT recoil NAMESPACE recoil:: FILE recoil-targets.cmake
         DESTINATION ${recoil_cmake_folder} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/recoil
         COMPONENT development FILES_MATCHING PATTERN *.hpp
-        PATTERN cli EXCLUDE PATTERN python EXCLUDE)
+        PATTERN cli EXCLUDE PATTERN python EXCLUDE PATTERN web EXCLUDE)
 # Others write #include "recoil/analysis/analysis.hpp", so that no header of theirs is mistaken for one
 # of ours; inside, too.
 install(CODE [[
