@@ -98,7 +98,9 @@ int run_with_stack(const std::vector<std::string>& words) {
   pthread_attr_t attributes{};
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, enough);
+#ifndef __EMSCRIPTEN__  // a page has one thread
   pthread_setattr_default_np(&attributes);
+#endif
   pthread_attr_destroy(&attributes);
   int status = no_answer;
   std::thread([&] { status = run(words); }).join();
