@@ -114,7 +114,7 @@ function show(page, printed) {
   $('text').hidden = Boolean(page);
   $('page').hidden = !page;
   if (page) $('page').srcdoc = text_of(files.get(page));
-  const offered = [page, page.replace(/\.html$/, '.json'), fit, 'fig.svg'].filter((path) => path && files.has(path));
+  const offered = [page, page.replace(/\.html$/, '.json'), 'pages/fit.json', fit].filter((path) => path && files.has(path));
   $('save').replaceChildren(
     ...offered.map((path) => link(path.split('/').pop(), [files.get(path)], 'application/octet-stream')),
     link('recoil.zip', zip([...files]), 'application/zip'));
@@ -145,9 +145,8 @@ async function start() {
     if (!await step(['import', ...table, '--into', 'mine', ...common, ...option('particle'), ...option('surface'), ...measured])) return;
     fit = 'mine/fit.toml';
   }
-  const done = await step(['report', fit, '--out', 'pages', '--replicates', $('replicates').value]);
+  const done = await step(['fit', fit, '--out', 'pages', '--replicates', $('replicates').value]);
   if (!done) return;
-  await run(['figure', fit, '--out', 'fig.svg', '--replicates', '0']);
   show(page_of('pages'), done.out);
   document.body.dataset.seconds = done.seconds;
 }
