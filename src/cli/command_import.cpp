@@ -12,6 +12,8 @@
 #include "data/material_table.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
+#include "experiment/look.hpp"
+#include "options/useless_options.hpp"
 #include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_restitution.hpp"
@@ -25,7 +27,6 @@ ImportRequest reading_of(const GivenOptions& given) {
   const std::vector<std::string> files = given.texts("FILE");
   r.file = files.front();
   r.more_files.assign(files.begin() + 1, files.end());
-  r.format = *value_named<ImportFormat>(given.text("--format"));
   r.sheet = given.text("--sheet");
   r.map = given.texts("--map");
   r.decimal_comma = given.has("--decimal-comma");
@@ -43,7 +44,43 @@ ImportRequest reading_of(const GivenOptions& given) {
   if (given.has("--ambient-pressure")) {
     r.conditions.push_back("ambient_pressure=" + given.text("--ambient-pressure"));
   }
+  if (given.has("--format")) {
+    r.format = *value_named<ImportFormat>(given.text("--format"));
+    return r;
+  }
+  if (r.file == "-") {
+    throw InputError({}, "the format of standard input is not known", "it can be read only once",
+                     "state it with --format");
+  }
+  r.format = format_of(r);
+  GivenOptions with_format = given;
+  with_format.set("--format", {std::string(to_string(r.format))});
+  refuse_useless_options(with_format);
   return r;
+}
+
+std::string words_of(ImportFormat format) {
+  switch (format) {
+    case ImportFormat::webplotdigitizer:
+      return "points read off a figure";
+    case ImportFormat::heights:
+      return "drop and rebound heights";
+    case ImportFormat::intervals:
+      return "times of bounces";
+    case ImportFormat::csv:
+      return "impacts, one in a row";
+    case ImportFormat::track:
+      return "heights over time";
+    case ImportFormat::recording:
+      return "the sound of bounces";
+    case ImportFormat::rest:
+      return "drop heights and times to rest";
+    case ImportFormat::tops:
+      return "heights of successive tops";
+    case ImportFormat::blocks:
+      return "times of several bounces together";
+  }
+  return "";
 }
 
 ImportRequest request_of(const GivenOptions& given) {
@@ -115,8 +152,26 @@ void run_bounce(const GivenOptions& given) {
   for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
 }
 
+/// Says what the file holds, and what is missing to import it.
+void look(const ImportRequest& request) {
+  const FileLook found = look_at(request);
+  print_line(fmt::format("{}: {} ({}, --format {})", request.file.string(),
+                         words_of(request.format), counted(found.points, "point"),
+                         to_string(request.format)));
+  for (const ImportNote& note : found.notes) print_line("note: " + note_sentence(note));
+  if (!found.missing.empty()) {
+    print_line("missing in the file: " + fmt::format("{}", fmt::join(found.missing, ", ")));
+  }
+  print_line("next: the same command with --into DIR" +
+             std::string(found.missing.empty() ? "" : " and what is missing"));
+}
+
 void run_import(const GivenOptions& given) {
   const ImportRequest request = request_of(given);
+  if (!given.has("--into")) {
+    look(request);
+    return;
+  }
   require_writable_folder(request.into);
   const Claim claim(request.into / "points.csv");
   const ImportResult result = import_points(request);

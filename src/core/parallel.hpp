@@ -74,13 +74,14 @@ auto on_threads(int threads, const Work& work) {
   return arena.execute(work);
 }
 
-/// Runs `main` on this thread and each of `others` on a thread of its own if `threads` is 0;
-/// otherwise one after the other. These are threads and not TBB tasks, because a TBB worker that
+/// Runs `main` on this thread and each of `others` on a thread of its own if `threads` is 0 and there
+/// is more than one core; otherwise one after the other. These are threads and not TBB tasks, because a TBB worker that
 /// finished a task beside `main` would not join an arena inside of it.
 /// @throws the exception of `main`, or else the first of `others`, after all have ended
 template <class Work, class... Others>
 void at_once(int threads, const Work& main, const Others&... others) {
-  const std::launch how = threads == 0 ? std::launch::async : std::launch::deferred;
+  const bool several = threads == 0 && tbb::this_task_arena::max_concurrency() > 1;
+  const std::launch how = several ? std::launch::async : std::launch::deferred;
   std::future<void> started[] = {std::async(how, others)...};
   main();
   for (std::future<void>& one : started) one.wait();

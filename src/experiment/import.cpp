@@ -175,7 +175,8 @@ void join_note(const ImportNote& note, ImportNote& earlier) {
   air.reynolds = std::max(air.reynolds, note.air.reynolds);
 }
 
-/// Reads the parts of a request, which are launches if there are several.
+}  // namespace
+
 ImportedPoints read_parts(const std::vector<ImportPart>& parts, const Json& system,
                           const FieldUnits& units) {
   ImportedPoints all;
@@ -202,6 +203,8 @@ ImportedPoints read_parts(const std::vector<ImportPart>& parts, const Json& syst
   }
   return all;
 }
+
+namespace {
 
 /// Adds the scatter of the experiment to the errors of the readings.
 void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& points) {

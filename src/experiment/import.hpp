@@ -84,7 +84,7 @@ struct ImportRequest {
 enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
   sheet_read,            ///< `names`: the sheet of a workbook, and those that were not read
-  columns_known,         ///< `names`: "time = t [s]": columns of a program that names them so
+  columns_known,         ///< `names`: "time = t [s]": columns taken by their names
   decimal_commas,        ///< the numbers have decimal commas, though none was stated
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a needed cell is empty

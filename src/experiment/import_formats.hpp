@@ -110,6 +110,14 @@ ImportedPoints read_digitised(const ImportRequest& request);
 /// differences are mostly positive.
 ImportedPoints read_track(const ImportRequest& request, const SphereInAir& sphere);
 
+struct ImportPart;
+
+/// Reads the parts of a request, which are launches if there are several.
+/// @param system as `imported_system` makes it
+/// @param units of the columns of the replaced dataset
+ImportedPoints read_parts(const std::vector<ImportPart>& parts, const Json& system,
+                          const FieldUnits& units);
+
 /// The datapackage.json of the folder whose points are to be replaced.
 struct ExistingPackage {
   Json json;

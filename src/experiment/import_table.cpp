@@ -500,6 +500,9 @@ void ImportTable::find_columns_by_name() {
         at, [&](std::size_t i) { return own || header[i] == header[at.front()]; });
     if (at.empty() || !one) continue;
     read_map(fmt::format("{}=\"{}\"", quantity.name, header[at.front()]));
+    if (header[at.front()] != quantity.name) {
+      found_.push_back(fmt::format("{} = {}", quantity.name, header[at.front()]));
+    }
   }
 }
 
@@ -672,6 +675,7 @@ bool ImportTable::is_named(const std::string& quantity) const {
 
 std::vector<ImportNote> ImportTable::notes() const {
   std::vector<ImportNote> notes = notes_;
+  if (!found_.empty()) notes.push_back({ImportRemark::columns_known, found_});
   if (left_out_.empty()) return notes;
   if (left_out_.size() == size()) {
     throw InputError({file_, line(0), 1}, "every row has an empty cell", "no point is left",

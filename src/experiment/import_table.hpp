@@ -189,6 +189,7 @@ class ImportTable {
   std::vector<CsvRow> rows_;
   std::size_t replicates_ = 1;
   std::map<std::string, Source> columns_;
+  std::vector<std::string> found_;  ///< "restitution = e"
   std::set<std::size_t> left_out_;  ///< rows
 };
 

@@ -39,11 +39,11 @@ OptionType within(Dimension dimension, const Range& range) {
   return quantity(dimension, si_unit(dimension), range.lower, range.upper);
 }
 
+}  // namespace
+
 bool has_word(std::string_view words, std::string_view word) {
   return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
 }
-
-}  // namespace
 
 const std::vector<OptionRow>& option_rows() {
   static const std::vector<OptionRow> rows = {
@@ -116,13 +116,13 @@ const std::vector<OptionRow>& option_rows() {
       {"init", "--provenance", one_of({"measured", "digitised"}), "where these points come from",
        "measured"},
       {"init bounce", "--diameter", diameter(), "diameter of all spheres"},
-      {"import bounce", "--format", one_of(all_names<ImportFormat>()), "what the file holds",
-       required},
+      {"import bounce", "--format", one_of(all_names<ImportFormat>()),
+       "what the file holds (default: the format that its columns fit)"},
       {"bounce", "--ball", text("NAME"),
        "table-tennis, tennis, golf or squash, with size and mass of the rules; or a material "
        "(recoil materials), with --diameter"},
       {"bounce", "--mass", number(1e-9, 1e4), "mass of the ball [kg]"},
-      {"import", "--into", path("DIR"), "the dataset's folder", required},
+      {"import", "--into", path("DIR"), "the dataset's folder; without it, import says what it finds and what it still needs"},
       {"init import bounce", "--sheet", text("NAME"),
        "sheet of a workbook: its name, or its number from 1 on (default: the first that is not "
        "hidden)"},

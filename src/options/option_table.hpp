@@ -30,6 +30,9 @@ struct OptionRow {
   std::string_view default_text() const { return is_required() ? "" : standard; }
 };
 
+/// Is `word` among words separated by blanks?
+bool has_word(std::string_view words, std::string_view word);
+
 /// Every option of every command, in the order of help and manual.
 const std::vector<OptionRow>& option_rows();
 

@@ -22,7 +22,7 @@ enum class Needs {
 
 /// When an option of a command does something.
 struct Usefulness {
-  std::string_view command, option;
+  std::string_view commands, option;
   Needs needs;
   std::vector<std::string_view> others;
   std::vector<std::string_view> values = {};
@@ -36,41 +36,30 @@ const std::vector<Usefulness>& conditions() {
       {"import", "--error-series", value_of, {"--format"}, {"webplotdigitizer"}},
       {"import", "--sd-of", value_of, {"--format"}, {"csv"}},
       {"import", "--scatter", value_of, {"--format"}, {"webplotdigitizer"}},
-      {"import", "--captured-below", value_of, {"--format"}, {"webplotdigitizer", "heights"}},
-      {"import",
+      {"import bounce",
+       "--captured-below",
+       value_of,
+       {"--format"},
+       {"webplotdigitizer", "heights"}},
+      {"import bounce",
        "--drop-error",
        value_of,
        {"--format"},
        {"heights", "intervals", "recording", "rest", "tops"}},
-      {"import", "--rebound-error", value_of, {"--format"}, {"heights", "tops"}},
-      {"import",
+      {"import bounce", "--rebound-error", value_of, {"--format"}, {"heights", "tops"}},
+      {"import bounce",
        "--time-error",
        value_of,
        {"--format"},
        {"intervals", "recording", "rest", "blocks"}},
-      {"import", "--average", value_of, {"--format"}, {"heights"}},
+      {"import bounce", "--average", value_of, {"--format"}, {"heights"}},
       {"import",
        "--gravity",
        value_of,
        {"--format"},
        {"heights", "intervals", "track", "recording", "rest", "tops", "blocks"}},
-      {"import", "--fps", value_of, {"--format"}, {"track"}},
-      {"import", "--scale", value_of, {"--format"}, {"track"}},
-      {"bounce", "--captured-below", value_of, {"--format"}, {"heights"}},
-      {"bounce",
-       "--drop-error",
-       value_of,
-       {"--format"},
-       {"heights", "intervals", "recording", "rest", "tops"}},
-      {"bounce", "--rebound-error", value_of, {"--format"}, {"heights", "tops"}},
-      {"bounce",
-       "--time-error",
-       value_of,
-       {"--format"},
-       {"intervals", "recording", "rest", "blocks"}},
-      {"bounce", "--average", value_of, {"--format"}, {"heights"}},
-      {"bounce", "--fps", value_of, {"--format"}, {"track"}},
-      {"bounce", "--scale", value_of, {"--format"}, {"track"}},
+      {"import bounce", "--fps", value_of, {"--format"}, {"track"}},
+      {"import bounce", "--scale", value_of, {"--format"}, {"track"}},
       {"init", "--sheet", any_of, {"--points"}},
       {"init", "--map", any_of, {"--points"}},
       {"init", "--provenance", any_of, {"--points"}},
@@ -93,7 +82,8 @@ const std::vector<Usefulness>& conditions() {
 
 void refuse_useless_options(const GivenOptions& given) {
   for (const Usefulness& row : conditions()) {
-    if (row.command != given.command() || !given.takes(row.option) || !given.has(row.option)) {
+    if (!has_word(row.commands, given.command()) || !given.takes(row.option) ||
+        !given.has(row.option)) {
       continue;
     }
     const bool beside = std::ranges::any_of(
@@ -114,12 +104,13 @@ void refuse_useless_options(const GivenOptions& given) {
       refuse(fmt::format("with {}", other), "", "leave one of them out");
     } else if (row.needs == Needs::another && listed) {
       refuse(fmt::format("with {} {}", other, value), "", "leave one of them out");
-    } else if (row.needs == Needs::value_of && !listed) {
+    } else if (row.needs == Needs::value_of && !listed && !value.empty()) {
       refuse(fmt::format("with {} {}", other, value),
              fmt::format("it is an option of {}", fmt::join(row.values, " and ")),
-             row.command == "import" ? "leave it out; a column of the file is named by --map, as "
-                                       "restitution_sd=COLUMN"
-                                     : "leave it out");
+             given.command() == "import"
+                 ? "leave it out; a column of the file is named by --map, as "
+                   "restitution_sd=COLUMN"
+                 : "leave it out");
     }
   }
 }

@@ -98,8 +98,11 @@ class BudgetMaker {
     budget.sd = std::sqrt(variance);
     if (!budget.available()) return budget;
     for (BudgetEntry& entry : budget.entries) entry.share = entry.sd * entry.sd / variance;
-    std::stable_sort(budget.entries.begin(), budget.entries.end(),
-                     [](const BudgetEntry& a, const BudgetEntry& b) { return a.sd > b.sd; });
+    // Equal shares keep their order, whatever the rounding of sums.
+    constexpr double grid = 1e6;
+    std::ranges::stable_sort(budget.entries, std::ranges::greater(), [](const BudgetEntry& entry) {
+      return std::llround(grid * entry.share);
+    });
     for (BudgetEntry& entry : budget.entries) {
       if (!entry.constant) continue;
       if (!budget.sd_without_first_constant) {
