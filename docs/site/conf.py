@@ -23,6 +23,7 @@ suppress_warnings = ["myst.header"]
 html_theme = "furo"
 html_title = f"recoil {release}"
 html_static_path = ["/usr/share/javascript/katex"]
+html_extra_path = [str(page) for page in [docs.parent / "build/web/recoil.html"] if page.exists()]
 html_css_files = ["katex.min.css"]
 html_js_files = ["katex.min.js", "equations.js"]
 html_math_renderer = "katex"
@@ -56,12 +57,20 @@ def equation(self, node, tag):
     raise nodes.SkipNode
 
 
+def the_page(app, name, text):
+    """The pages that speak of the program in one HTML file link it if it was made."""
+    if html_extra_path and name in (root_doc, "browser"):
+        text[0] = re.sub(r"(?m)^(# .*)$", r"\1\n\n```{raw} html\n"
+                         r'<p><a href="recoil.html">Open recoil in this browser</a></p>' r"\n```", text[0], count=1)
+
+
 def setup(app):
     app.add_html_math_renderer(
         "katex", (lambda self, node: equation(self, node, "span"), None),
         (lambda self, node: equation(self, node, "div"), None))
     app.connect("source-read", sections_as_menu)
     app.connect("source-read", links_into_the_project)
+    app.connect("source-read", the_page)
     app.connect("build-finished", lambda app, error: (Path(app.outdir) / "_static/equations.js")
                 .write_text('document.addEventListener("DOMContentLoaded", () => {\n'
                             '  for (const e of document.querySelectorAll(".math"))\n'

@@ -60,15 +60,15 @@ ImportFormat format_of(const ImportRequest& asked) {
   request.text = beginning_of(request.text ? *request.text : table_text(request, notes));
   if (is_digitised(request)) return ImportFormat::webplotdigitizer;
   std::vector<ImportFormat> fitting;
-  std::optional<InputError> deepest;  // an error in a row, below the header
+  std::vector<InputError> errors;
   for (const ImportFormat format : values_of<ImportFormat>()) {
     if (format == ImportFormat::webplotdigitizer || format == ImportFormat::recording) continue;
     request.format = format;
     const std::optional<InputError> error = refusal(request);
     if (!error) {
       fitting.push_back(format);
-    } else if (!deepest || error->where().line > deepest->where().line) {
-      deepest = error;
+    } else {
+      errors.push_back(*error);
     }
   }
   if (std::ranges::find(fitting, ImportFormat::track) != fitting.end()) {
@@ -82,8 +82,12 @@ ImportFormat format_of(const ImportRequest& asked) {
                      fmt::format("this can be {}", fmt::join(names, " or ")),
                      "its columns fit several formats", "state it with --format");
   }
-  throw InputError(deepest->where(), "it is not known what this file holds", deepest->problem(),
-                   "state it with --format, and its columns with --map quantity=COLUMN:UNIT");
+  const auto line_of = [](const InputError& error) { return error.where().line; };
+  const auto [first, last] = std::ranges::minmax_element(errors, {}, line_of);
+  if (last->where().line > first->where().line) throw InputError(*last);  // in a row of its format
+  throw InputError(
+      first->where(), "it is not known what this file holds", first->why(),
+      "state it with --map, as in --map incident_velocity=COLUMN:m/s,restitution=COLUMN");
 }
 
 FileLook look_at(const ImportRequest& request) {

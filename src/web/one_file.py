@@ -15,8 +15,8 @@ here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
 
 
-def script_hash(text):
-    """The source expression of an inline script (CSP level 3)."""
+def hash_of(text):
+    """The source expression of an inline script or style (CSP level 3)."""
     return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
 
 
@@ -38,13 +38,16 @@ def main():
     save = "\n" + (root / "src/document/save.js").read_text()
     # The pages that the program makes have one of these scripts; a frame obeys the policy of its page.
     own = [script, save, save + (root / "src/report/explore.js").read_text()]
-    policy = ("default-src 'none'; script-src 'wasm-unsafe-eval' " + " ".join(script_hash(one) for one in own) +
-              "; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'")
+    style = (here / "page.css").read_text()
+    sheet = (root / "src/document/html_style.cpp").read_text().split('R"css(')[1].split(')css"')[0]
+    policy = ("default-src 'none'; script-src 'wasm-unsafe-eval' " + " ".join(hash_of(one) for one in own) +
+              "; worker-src blob:; style-src " + " ".join(hash_of(one) for one in ("\n" + style, "\n" + sheet)) +
+              "; img-src data: blob:; base-uri 'none'; form-action 'none'")
     packed = gzip.compress((program / "recoil.wasm").read_bytes(), mtime=0)
     worker = (program / "recoil.js").read_text() + (here / "worker.js").read_text()
     page = (here / "page.html").read_text()
     for name, text in {
-            "policy": policy, "style": (here / "page.css").read_text(), "version": version,
+            "policy": policy, "style": style, "version": version,
             "wasm": base64.b64encode(packed).decode(),
             "examples": json.dumps(examples()).replace("</", "<\\/"),
             "worker": worker.replace("</script", "<\\/script"), "script": script}.items():

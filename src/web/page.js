@@ -18,15 +18,16 @@ const unpacked = (async () => {
 })();
 const worker_address = URL.createObjectURL(new Blob([$('worker').textContent], { type: 'text/javascript' }));
 
-// Runs one command: { status, out, err }. Files that it writes replace ours.
+// Runs one command: { status, out, err, seconds }. Files that it writes replace ours.
 async function run(args) {
   const module = await unpacked;
   const begin = performance.now();
   const out = [], err = [];
+  let doing = '';
   return new Promise((resolve) => {
     const tick = setInterval(() => {
-      $('state').textContent = `${((performance.now() - begin) / 1000).toFixed(0)} s ${err.at(-1) ?? ''}`;
-    }, 500);
+      $('state').textContent = `${((performance.now() - begin) / 1000).toFixed(0)} s ${doing}`;
+    }, 250);
     const end = (status) => {
       clearInterval(tick);
       worker?.terminate();
@@ -38,9 +39,12 @@ async function run(args) {
     worker = new Worker(worker_address);
     worker.onerror = (e) => { err.push('recoil: ' + e.message); end(3); };
     worker.onmessage = ({ data }) => {
-      if (data.stream) { (data.stream === 'out' ? out : err).push(data.text); return; }
-      for (const [path, bytes] of data.files) files.set(path, bytes);
-      end(data.status);
+      if (data.stream === 'doing') doing = data.text;
+      else if (data.stream) (data.stream === 'out' ? out : err).push(data.text);
+      else {
+        for (const [path, bytes] of data.files) files.set(path, bytes);
+        end(data.status);
+      }
     };
     $('stop').hidden = false;
     $('stop').onclick = () => { err.push('stopped'); end(130); };
@@ -50,18 +54,27 @@ async function run(args) {
 
 const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
 
+const fields = ['diameter', 'particle', 'surface', 'map', 'format', 'ball'];
+
+// Shows a message at the field whose option it names, or below the buttons.
+function show_error(message) {
+  let place = $('error');
+  for (const id of fields) {
+    const wrong = Boolean(message) && place === $('error') && message.includes('--' + id);
+    $(id).setAttribute('aria-invalid', String(wrong));
+    if (wrong && !$(id + '-row').hidden) place = $(id + '-error');
+  }
+  for (const id of [...fields.map((id) => id + '-error'), 'error']) $(id).textContent = '';
+  place.textContent = message;
+  place.previousElementSibling?.focus?.();
+}
+
 // Runs a command that the reader may repeat; null if it fails, whose message is then shown.
 async function step(args) {
   commands.push('recoil ' + args.map(quoted).join(' '));
   const done = await run(args);
   if (done.status === 0) return done;
-  $('error').textContent = done.err || done.out;
-  // The line names the option that is wrong; the field of that option is marked.
-  for (const id of ['diameter', 'particle', 'surface', 'map', 'format', 'ball']) {
-    const wrong = done.err.includes('--' + id);
-    $(id).setAttribute('aria-invalid', wrong ? 'true' : 'false');
-    if (wrong) { $(id).focus(); break; }
-  }
+  show_error(done.err || done.out);
   return null;
 }
 
@@ -108,57 +121,93 @@ function zip(entries) {
   return [...parts, ...central, bytes_of('PK\x05\x06'), end];
 }
 
-function show(page, printed) {
+// The results: what the program printed, a picture, and a page.
+function show({ text = '', picture = '', page = '' }) {
   $('result').hidden = false;
-  $('text').textContent = printed;
-  $('text').hidden = Boolean(page);
+  $('text').textContent = text;
+  $('text').hidden = Boolean(page) || !text;
+  $('picture').hidden = !picture || Boolean(page);
+  if (picture) $('picture').src = URL.createObjectURL(new Blob([files.get(picture)], { type: 'image/svg+xml' }));
   $('page').hidden = !page;
   if (page) $('page').srcdoc = text_of(files.get(page));
-  const offered = [page, page.replace(/\.html$/, '.json'), 'pages/fit.json', fit].filter((path) => path && files.has(path));
+  const offered = [page, picture, ...[...files.keys()].filter((path) => /^pages\/(.*\/)?(fit|diagnosis)\.json$/.test(path)), fit];
   $('save').replaceChildren(
-    ...offered.map((path) => link(path.split('/').pop(), [files.get(path)], 'application/octet-stream')),
+    ...offered.filter((path) => path && files.has(path))
+      .map((path) => link(path.split('/').pop(), [files.get(path)], 'application/octet-stream')),
     link('recoil.zip', zip([...files]), 'application/zip'));
   $('commands').textContent = commands.join('\n');
-  $('diagnose').hidden = !fit;
+  $('whole').hidden = !fit;
   $('result').scrollIntoView();
 }
 
-const page_of = (folder) =>
-  [...files.keys()].find((path) => path.startsWith(folder + '/') && path.endsWith('.html') && !path.endsWith('/index.html')) ?? '';
 const words = (text) => text.trim().split(/\s+/).filter(Boolean);
-const option = (id) => ($(id).value.trim() ? ['--' + id, $(id).value.trim()] : []);
+const option = (id) => ($(id).value.trim() && !$(id + '-row').hidden ? ['--' + id, $(id).value.trim()] : []);
+const stated = () => [...($('format').value ? ['--format', $('format').value] : []), ...option('map'), ...words($('more').value)];
+const no_flights = ['csv', 'webplotdigitizer'];
 
-async function start() {
-  $('error').textContent = '';
+// Forgets what the program wrote, and starts a new list of commands.
+function begin() {
+  show_error('');
   commands = [];
-  for (const path of [...files.keys()]) if (/^(pages|diagnosis|mine)\//.test(path)) files.delete(path);
-  if (table.length) {
-    const format = $('format').value;
-    const common = ['--format', format, ...(format === 'csv' ? [] : option('ball')), ...option('diameter'),
-      ...option('map'), ...words($('more').value)];
-    if ($('ball').value && format !== 'csv') {
-      const done = await step(['bounce', ...table, ...common]);
-      if (done) { fit = ''; show('', done.out + (done.err ? '\n' + done.err : '')); }
-      return;
-    }
-    const measured = common.includes('--provenance') ? [] : ['--provenance', 'measured'];
-    if (!await step(['import', ...table, '--into', 'mine', ...common, ...option('particle'), ...option('surface'), ...measured])) return;
-    fit = 'mine/fit.toml';
-  }
-  const done = await step(['fit', fit, '--out', 'pages', '--replicates', $('replicates').value]);
-  if (!done) return;
-  show(page_of('pages'), done.out);
-  document.body.dataset.seconds = done.seconds;
+  for (const path of [...files.keys()]) if (/^(pages|mine)\//.test(path)) files.delete(path);
 }
 
-async function diagnose() {
-  $('error').textContent = '';
-  const done = await step(['diagnose', fit, '--out', 'diagnosis']);
-  if (done) show(page_of('diagnosis'), done.out);
+// Asks the program what the tables hold and which of our fields it needs.
+async function look() {
+  if (!table.length) return;
+  show_error('');
+  const done = await run(['import', ...table, ...stated()]);
+  const format = /--format (\w+)\)/.exec(done.out)?.[1] ?? $('format').value;
+  const missing = /^missing in the file: (.*)$/m.exec(done.out)?.[1] ?? '';
+  if (done.status === 0) $('format').value = format;
+  else show_error(done.err);
+  $('found').textContent = done.out.split('\n').filter((line) => !/^(next|missing)/.test(line)).join('\n');
+  const ball = done.status === 0 && !no_flights.includes(format);
+  $('ball-row').hidden = !ball;
+  if (!ball) $('ball').value = '';
+  for (const id of ['diameter', 'particle', 'surface']) {
+    $(id + '-row').hidden = done.status !== 0 || Boolean($('ball').value) || !missing.includes('--' + id);
+  }
+  $('map-row').hidden = done.status === 0 && !$('map').value;
+}
+
+// Makes a dataset of the tables; true if there is a fit file.
+async function imported() {
+  if (!table.length) return Boolean(fit);
+  const origin = ['--provenance', 'measured'];
+  const more = stated();
+  if (!await step(['import', ...table, '--into', 'mine', ...more, ...option('diameter'), ...option('particle'),
+    ...option('surface'), ...(more.includes('--provenance') || more.includes('webplotdigitizer') ? [] : origin)])) return false;
+  fit = 'mine/fit.toml';
+  return true;
+}
+
+async function start() {
+  begin();
+  if (table.length && $('ball').value) {
+    fit = '';
+    const done = await step(['bounce', ...table, ...stated(), ...option('ball')]);
+    if (done) show({ text: done.out });
+    return;
+  }
+  if (!await imported()) return;
+  const done = await step(['fit', fit, '--out', 'pages', '--replicates', $('replicates').value]);
+  if (!done) return;
+  document.body.dataset.seconds = done.seconds;
+  show({ text: done.out });
+  const drawn = await step(['figure', fit, '--out', 'pages/figure.svg', '--width', '120', '--replicates', $('replicates').value]);
+  if (drawn) show({ text: done.out, picture: 'pages/figure.svg' });
+}
+
+async function whole() {
+  begin();
+  if (!await imported()) return;
+  const done = await step(['report', fit, '--out', 'pages', '--replicates', $('replicates').value]);
+  if (done) show({ page: 'pages/' + fit.split('/').pop().replace(/\.toml$/, '.html') });
 }
 
 // The dropped files: a dataset with a fit file, a dataset without one, or tables.
-function take(found) {
+async function take(found) {
   files = found;
   const names = [...files.keys()];
   const data = names.find((name) => name.endsWith('datapackage.json'));
@@ -169,14 +218,17 @@ function take(found) {
     fit = 'fit.toml';
     files.set(fit, bytes_of(`dataset = "${folder}"\n`));
   }
+  $('result').hidden = true;
   $('shown').hidden = $('go').hidden = false;
   $('asked').hidden = !table.length;
   $('names').textContent = names.join(', ');
+  $('found').textContent = '';
+  for (const id of ['format', 'map', 'ball', 'more']) $(id).value = '';
   const first = files.get(table[0] ?? names.find((name) => name.endsWith('points.csv')) ?? names[0]);
-  const start = text_of(first.slice(0, 2000));
-  $('preview').hidden = /[\0\ufffd]/.test(start);
-  $('preview').textContent = start.split('\n').slice(0, 6).join('\n');
-  if (/^(RIFF|fLaC|OggS)/.test(start)) $('format').value = 'recording';
+  const beginning = text_of(first.slice(0, 2000));
+  $('preview').hidden = /[\0\ufffd]/.test(beginning);
+  $('preview').textContent = beginning.split('\n').slice(0, 6).join('\n');
+  await busy(look);
 }
 
 async function entries_of(entry, found) {
@@ -199,11 +251,15 @@ $('example').onchange = () => {
   const chosen = examples[$('example').value];
   if (chosen) take(new Map(Object.entries(chosen).map(([path, text]) => [path, bytes_of(text)])));
 };
-$('choose').onchange = async () => {
-  const found = new Map();
-  for (const file of $('choose').files) found.set(file.name, new Uint8Array(await file.arrayBuffer()));
-  if (found.size) take(found);
-};
+for (const id of ['choose', 'folder']) {
+  $(id).onchange = async () => {
+    const found = new Map();
+    for (const file of $(id).files) {
+      found.set(file.webkitRelativePath || file.name, new Uint8Array(await file.arrayBuffer()));
+    }
+    if (found.size) take(found);
+  };
+}
 document.ondragover = (e) => { e.preventDefault(); $('drop').classList.add('over'); };
 document.ondragleave = () => $('drop').classList.remove('over');
 document.ondrop = async (e) => {
@@ -215,14 +271,13 @@ document.ondrop = async (e) => {
   }
   if (found.size) take(found);
 };
-$('format').onchange = () => { $('ball-row').hidden = $('format').value === 'csv'; };
-$('format').onchange();
 async function busy(work) {
-  for (const id of ['start', 'diagnose']) $(id).disabled = true;
-  try { await work(); } finally { for (const id of ['start', 'diagnose']) $(id).disabled = false; }
+  for (const id of ['start', 'whole']) $(id).disabled = true;
+  try { await work(); } finally { for (const id of ['start', 'whole']) $(id).disabled = false; }
 }
+for (const id of ['format', 'map', 'more', 'ball']) $(id).onchange = () => busy(look);
 $('form').onsubmit = (e) => { e.preventDefault(); busy(start); };
-$('diagnose').onclick = () => busy(diagnose);
+$('whole').onclick = () => busy(whole);
 busy(async () => {
   const list = await run(['materials']);
   for (const line of list.out.split('\n')) {

@@ -8,13 +8,27 @@ function all_files(FS, folder, found) {
   }
   return found;
 }
+// Takes standard error byte by byte. A line that is drawn again, of a bar, ends with a carriage return.
+function by_lines(line, bar) {
+  let bytes = [];
+  const text = () => new TextDecoder().decode(new Uint8Array(bytes)).replace('\x1b[K', '').replace(/\[[#.]*\] /, '');
+  return (byte) => {
+    if (byte === 10 || byte === 13) {
+      if (byte === 10) line(text());
+      else if (bytes.length) bar(text());
+      bytes = [];
+    } else if (byte !== null) {
+      bytes.push(byte & 255);
+    }
+  };
+}
 onmessage = async ({ data }) => {
   const say = (stream) => (text) => postMessage({ stream, text });
   const program = await Recoil({
     noInitialRun: true,
     print: say('out'),
     printErr: say('err'),
-    preRun: [(m) => Object.assign(m.ENV, { TERM: 'dumb', NO_COLOR: '1', HOME: '/here' })],
+    preRun: [(m) => Object.assign(m.ENV, { TERM: 'ansi', NO_COLOR: '1', HOME: '/here' })],
     instantiateWasm: (imports, done) => {
       WebAssembly.instantiate(data.module, imports).then((instance) => done(instance));
       return {};
@@ -26,6 +40,8 @@ onmessage = async ({ data }) => {
     FS.mkdirTree('/here/' + path.split('/').slice(0, -1).join('/'));
     FS.writeFile('/here/' + path, bytes);
   }
+  const take = by_lines(say('err'), say('doing'));
+  FS.streams[2].tty.ops = { put_char: (tty, byte) => take(byte), flush: () => {} };
   FS.chdir('/here');
   let status = 3;
   try {

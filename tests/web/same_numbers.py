@@ -7,22 +7,23 @@ words differ, or if the page makes a request.
 usage: same_numbers.py [FIT...]      (default: every fit of one shipped dataset)
 """
 
+import io
 import json
 import math
 import pathlib
-import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import wave
+import zipfile
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(root / "tests/report"))
-import open_in_chromium as chromium  # noqa: E402
+sys.path.insert(0, str(root / "tests/web"))
+from tab import PAGE, Tab, chromium  # noqa: E402
 
-chromium.TIME_LIMIT = 900
 PROGRAM = root / "build/release/recoil"
-PAGE = root / "build/web/recoil.html"
 SAME = 1e-9
 # Numbers that say how a search went, when, or with what.
 ASIDE = ("seconds", "evaluations", "iterations", "threads", "starts", "version", "timing", "curve")
@@ -45,6 +46,42 @@ def bouncing():
     return "\n".join(rows) + "\n"
 
 
+def sound():
+    """The sound of six bounces with e = 0.9, the first after 0.1 s, as a WAV file."""
+    rate, at, wait = 16000, 0.1, 0.5
+    samples = [0.0] * (3 * rate)
+    for _ in range(6):
+        for k in range(400):
+            samples[int(at * rate) + k] += math.exp(-k / 60) * math.sin(0.9 * k)
+        at, wait = at + wait, 0.9 * wait
+    file = io.BytesIO()
+    with wave.open(file, "wb") as out:
+        out.setparams((1, 2, rate, len(samples), "NONE", ""))
+        out.writeframes(b"".join(struct.pack("<h", int(20000 * s)) for s in samples))
+    return file.getvalue()
+
+
+def workbook():
+    """Drop and rebound heights as an Excel workbook."""
+    rows = [("drop_height (cm)", "rebound_height (cm)"), (30, 24), (60, 47), (90, 69)]
+    cells = "".join("<row>" + "".join(
+        f'<c t="inlineStr"><is><t>{c}</t></is></c>' if isinstance(c, str) else f"<c><v>{c}</v></c>"
+        for c in row) + "</row>" for row in rows)
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006/relationships"
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as out:
+        out.writestr("_rels/.rels", f'<Relationships xmlns="{package}"><Relationship Id="r1" Type="{office}/officeDocument" '
+                                    'Target="xl/workbook.xml"/></Relationships>')
+        out.writestr("xl/workbook.xml", f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
+                                        '<sheet name="drops" sheetId="1" r:id="r1"/></sheets></workbook>')
+        out.writestr("xl/_rels/workbook.xml.rels", f'<Relationships xmlns="{package}"><Relationship Id="r1" '
+                                                   f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>')
+        out.writestr("xl/worksheets/sheet1.xml", f'<worksheet xmlns="{main}"><sheetData>{cells}</sheetData></worksheet>')
+    return file.getvalue()
+
+
 IMPORTS = {
     "csv": ("V;e\n2,0;0,5\n3,1;0,62\n4,2;0,70\n6,0;0,75\n9,5;0,78\n", ["import", "--into", "mine", "--map",
             "incident_velocity=V:m/s,restitution=e", "--diameter", "4.9um", "--particle", "polystyrene",
@@ -56,6 +93,8 @@ IMPORTS = {
     "rest": ("h,t\n30,5.1\n30,5.0\n60,7.2\n", ["bounce", "--map", "drop_height=h:cm,rest_time=t:s", *BALL]),
     "blocks": ("n,t\n5,2.1\n5,1.4\n5,0.9\n", ["bounce", "--map", "bounces=n,block_time=t:s", *BALL]),
     "track": (bouncing(), ["bounce", "--map", "time=t:s,height=h:m", *BALL]),
+    "recording": (sound(), ["bounce", *BALL]),
+    "workbook": (workbook(), ["bounce", "--format", "heights", *BALL]),
     "webplotdigitizer": ("a,\nX,Y\n2,0.5\n3,0.62\n4,0.7\n6,0.75\n", ["import", "--into", "mine", "--diameter",
                          "4.9um", "--particle", "polystyrene", "--surface", "molybdenum"]),
 }
@@ -93,44 +132,17 @@ def differences(native, tab):
     return count, largest, wrong
 
 
-class Tab:
-    """The page in Chromium."""
-
-    def __init__(self):
-        program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))))
-        self.browser = chromium.Browser(program)
-        self.session, _ = chromium.open_page(self.browser, PAGE, 1280, 900, False)
-        self.evaluate("new Promise((done) => { const wait = setInterval(() => {"
-                      " if (!worker && document.querySelector('#materials option')) {"
-                      " clearInterval(wait); done(1); } }, 100); })")
-
-    def evaluate(self, expression):
-        answer = self.browser.call("Runtime.evaluate", self.session, expression=expression,
-                                   awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in answer:
-            raise RuntimeError(json.dumps(answer["exceptionDetails"])[:600])
-        return answer["result"].get("value")
-
-    def run(self, files, args):
-        """What the command prints and writes: {status, out, err, seconds, files}."""
-        return json.loads(self.evaluate(
-            f"(async () => {{ files = new Map(Object.entries({json.dumps(files)}).map(([p, t]) => [p, bytes_of(t)]));"
-            f" const done = await run({json.dumps(args)});"
-            " done.files = Object.fromEntries([...files].map(([p, b]) => [p, text_of(b)]));"
-            " return JSON.stringify(done); })()"))
-
-
 def native(files, args):
     """The same by the program."""
     with tempfile.TemporaryDirectory() as folder:
-        for path, text in files.items():
+        for path, content in files.items():
             target = pathlib.Path(folder, path)
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_text(text)
+            target.write_bytes(content)
         begin = time.time()
         done = subprocess.run([str(PROGRAM), *args], cwd=folder, capture_output=True, text=True)
         seconds = time.time() - begin
-        written = {str(path.relative_to(folder)): path.read_text(errors="replace")
+        written = {str(path.relative_to(folder)): path.read_bytes()
                    for path in pathlib.Path(folder).rglob("*") if path.is_file()}
         return {"status": done.returncode, "out": done.stdout.rstrip("\n"), "seconds": seconds, "files": written}
 
@@ -138,10 +150,10 @@ def native(files, args):
 def compared(name, tab, files, args, result, rows, listed):
     """Adds the row of one command; the JSON file `result`, or what is printed without one."""
     one, other = native(files, args), tab.run(files, args)
-    same_words = one["status"] == other["status"] and (bool(result) or one["out"] == other["out"])
+    same_words = one["status"] == other["status"] and (bool(result) or one["out"] == other["out"].rstrip("\n"))
     count, largest, wrong = 0, 0.0, []
     if result:
-        count, largest, wrong = differences(*(json.loads(r["files"].get(result, "null")) for r in (one, other)))
+        count, largest, wrong = differences(*(json.loads(r["files"].get(result, b"null")) for r in (one, other)))
     if not same_words:
         wrong.append(("status or words", f"{one['status']} {one['out'][:200]}",
                       f"{other['status']} {other['out'][:200]}{other['err'][:300]}"))
@@ -159,16 +171,17 @@ def main():
     def of_fit(name):
         paths = [root / f"fits/{name}.toml", *(root / f"datasets/{name}/{file}"
                                                for file in ("datapackage.json", "points.csv"))]
-        return {str(path.relative_to(root)): path.read_text() for path in paths}
+        return {str(path.relative_to(root)): path.read_bytes() for path in paths}
     for name in fits:
         compared(name, tab, of_fit(name),
                  ["fit", f"fits/{name}.toml", "--out", "out", "--replicates", "199", "--threads", "1"],
                  "out/fit.json", rows, listed)
     compared("diagnosis of " + fits[-1], tab, of_fit(fits[-1]),
              ["diagnose", f"fits/{fits[-1]}.toml", "--out", "out", "--threads", "1"], "out/diagnosis.json", rows, listed)
-    for name, (text, args) in IMPORTS.items():
-        compared("import of " + name, tab, {"a.csv": text}, [args[0], "a.csv", "--format", name, *args[1:]],
-                 "", rows, listed)
+    for name, (content, args) in IMPORTS.items():
+        how = [] if "--format" in args else ["--format", name]
+        files = {"a.csv": content if isinstance(content, bytes) else content.encode()}
+        compared("import of " + name, tab, files, [args[0], "a.csv", *how, *args[1:]], "", rows, listed)
     requests = chromium.complaints_in(tab.browser.events, PAGE.resolve().as_uri())
     tab.browser.close()
     lines = ["# recoil in the browser: the same numbers", "",
