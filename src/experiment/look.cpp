@@ -65,7 +65,8 @@ ImportFormat format_of(const ImportRequest& asked) {
     if (format == ImportFormat::webplotdigitizer || format == ImportFormat::recording) continue;
     request.format = format;
     const std::optional<InputError> error = refusal(request);
-    if (!error) {
+    const bool lacks_an_option = error && error->where().file.empty();
+    if (!error || lacks_an_option) {
       fitting.push_back(format);
     } else {
       errors.push_back(*error);

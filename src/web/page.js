@@ -231,6 +231,12 @@ async function take(found) {
   await busy(look);
 }
 
+// Chromium reads the entries of what was dropped on a page from the disk only by their handles.
+async function files_of(handle, path, found) {
+  if (handle.kind === 'file') found.set(path, new Uint8Array(await (await handle.getFile()).arrayBuffer()));
+  else for await (const [name, one] of handle.entries()) await files_of(one, path + '/' + name, found);
+}
+
 async function entries_of(entry, found) {
   if (entry.isFile) {
     const file = await new Promise((resolve, reject) => entry.file(resolve, reject));
@@ -266,8 +272,13 @@ document.ondrop = async (e) => {
   e.preventDefault();
   $('drop').classList.remove('over');
   const found = new Map();
-  for (const entry of [...e.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean)) {
-    await entries_of(entry, found);
+  const items = [...e.dataTransfer.items].filter((item) => item.kind === 'file');
+  if (items[0]?.getAsFileSystemHandle) {
+    for (const handle of await Promise.all(items.map((item) => item.getAsFileSystemHandle()))) {
+      await files_of(handle, handle.name, found);
+    }
+  } else {
+    for (const entry of items.map((item) => item.webkitGetAsEntry())) await entries_of(entry, found);
   }
   if (found.size) take(found);
 };
