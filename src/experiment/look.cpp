@@ -60,18 +60,21 @@ ImportFormat format_of(const ImportRequest& asked) {
   request.text = beginning_of(request.text ? *request.text : table_text(request, notes));
   if (is_digitised(request)) return ImportFormat::webplotdigitizer;
   std::vector<ImportFormat> fitting;
+  std::vector<ImportFormat> lacking;  // an option, not a column
   std::vector<InputError> errors;
   for (const ImportFormat format : values_of<ImportFormat>()) {
     if (format == ImportFormat::webplotdigitizer || format == ImportFormat::recording) continue;
     request.format = format;
     const std::optional<InputError> error = refusal(request);
-    const bool lacks_an_option = error && error->where().file.empty();
-    if (!error || lacks_an_option) {
+    if (!error) {
       fitting.push_back(format);
+    } else if (error->where().file.empty()) {
+      lacking.push_back(format);
     } else {
       errors.push_back(*error);
     }
   }
+  if (fitting.empty()) fitting = lacking;
   if (std::ranges::find(fitting, ImportFormat::track) != fitting.end()) {
     std::erase(fitting, ImportFormat::intervals);
   }

@@ -44,13 +44,19 @@ class Person:
                 raise RuntimeError(f"{self.name}: {condition} did not come true")
             time.sleep(0.1)
 
-    def drop(self, path):
-        """Drops a file of the disk on the page."""
-        self.do("window.scrollTo(0, 0)")
-        for kind in ("dragEnter", "dragOver", "drop"):
-            self.tab.browser.call("Input.dispatchDragEvent", self.tab.session, type=kind, x=60, y=200, data={
-                "items": [], "files": [str(path)], "dragOperationsMask": 1})
-        self.wait("table.length && !worker")
+    def give(self, path):
+        """Drops a file of the disk on the page; on a phone, chooses it."""
+        call, session = self.tab.browser.call, self.tab.session
+        if self.name == "phone":
+            document = call("DOM.getDocument", session)["root"]["nodeId"]
+            field = call("DOM.querySelector", session, nodeId=document, selector="#choose")["nodeId"]
+            call("DOM.setFileInputFiles", session, nodeId=field, files=[str(path)])
+        else:
+            self.do("window.scrollTo(0, 0)")
+            for kind in ("dragEnter", "dragOver", "drop"):
+                call("Input.dispatchDragEvent", session, type=kind, x=60, y=200,
+                     data={"items": [], "files": [str(path)], "dragOperationsMask": 1})
+        self.wait(f"table[0] === '{path.name}' && !worker")
         self.wait()
 
     def set(self, field, value):
@@ -108,7 +114,7 @@ def use(person):
                                                        "text", "commands"} <= reached)
     # The page of the program.
     person.click("whole")
-    person.wait("!$('page').hidden")
+    person.wait("!$('page').hidden", 300)
     person.wait()
     inner = do("return $('page').srcdoc")
     expect("the page has no figure or no diagnosis", "<svg" in inner and "diagnosis" in inner)
@@ -119,7 +125,7 @@ def use(person):
         table, drops = pathlib.Path(folder, "mine.csv"), pathlib.Path(folder, "drops.csv")
         table.write_text(TABLE)
         drops.write_text(DROPS)
-        person.drop(table)
+        person.give(table)
         expect("fields of the table", [person.shown(f"{f}-row") for f in ("diameter", "particle", "surface", "ball", "map")] ==
                [True, True, True, False, False])
         person.set("diameter", "4.9um")
@@ -138,7 +144,7 @@ def use(person):
         person.wait()
         expect("the table is not fitted", do("return files.has('pages/fit.json') && files.has('mine/points.csv')"))
         # Drops of a ball: its name is enough.
-        person.drop(drops)
+        person.give(drops)
         expect("fields of the drops", person.shown("ball-row"))
         person.set("ball", "golf")
         expect("a golf ball needs a material", not person.shown("particle-row"))
