@@ -27,7 +27,7 @@ def examples():
         dataset = root / "datasets" / fit.stem
         if not dataset.is_dir():
             continue
-        paths = [fit, dataset / "datapackage.json", dataset / "points.csv"]
+        paths = [fit, *sorted(path for path in dataset.iterdir() if path.suffix in (".json", ".csv"))]
         found[fit.stem] = {str(path.relative_to(root)): path.read_text() for path in paths}
     return found
 

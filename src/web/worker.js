@@ -8,7 +8,7 @@ function all_files(FS, folder, found) {
   }
   return found;
 }
-// Takes standard error byte by byte. A line that is drawn again, of a bar, ends with a carriage return.
+// Takes a stream byte by byte. A line that is drawn again, of a bar, ends with a carriage return.
 function by_lines(line, bar) {
   let bytes = [];
   const text = () => new TextDecoder().decode(new Uint8Array(bytes)).replace('\x1b[K', '').replace(/\[[#.]*\] /, '');
@@ -26,7 +26,7 @@ onmessage = async ({ data }) => {
   const say = (stream) => (text) => postMessage({ stream, text });
   const program = await Recoil({
     noInitialRun: true,
-    print: say('out'),
+    stdout: by_lines(say('out')),  // not a terminal
     printErr: say('err'),
     preRun: [(m) => Object.assign(m.ENV, { TERM: 'ansi', NO_COLOR: '1', HOME: '/here' })],
     instantiateWasm: (imports, done) => {
