@@ -28,7 +28,7 @@ _recoil() {
       coverage) words='--help --datasets --out --shard --replicates --seed --threads --json' ;;
       init) words='--help --points --provenance --diameter --sheet --map --particle --surface --like' ;;
       import) words='--help --format --into --sheet --map --sd-of --diameter --diameter-error --series --particle --surface --like --adhesion-energy --provenance --source --axis --reading-error --error-series --scatter --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --method --ambient-pressure --condition --decimal-comma --replace' ;;
-      bounce) words='--help --diameter --format --ball --mass --sheet --map --series --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --ambient-pressure --condition --decimal-comma' ;;
+      bounce) words='--help --diameter --format --ball --mass --out --sheet --map --series --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --ambient-pressure --condition --decimal-comma' ;;
       materials) words='--help --verbose' ;;
       predict) words='--help --sizes --unit --height --midpoints --dataset --out --replicates --seed --threads --json' ;;
       figure) words='--help --out --width --replicates --seed --threads' ;;

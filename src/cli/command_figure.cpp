@@ -78,22 +78,30 @@ std::string format_of(const fs::path& file) {
 
 void run_figure(const GivenOptions& given) {
   const fs::path out = given.text("--out");
-  const std::string format = format_of(out);
-  require_free({out});
+  require_figure(out);
   const double width = given.number("--width") * 1e3;  // [mm]
   const AnalysisOptions options = analysis_options(given);
   const Analysis analysis = analyse(load_inputs(given.text("FIT")), options);
-  const double px = width * letters_per_mm;
-  const std::string svg =
-      plot::draw_svg(restitution_overview(analysis, static_cast<int>(std::lround(px)),
-                                          static_cast<int>(std::lround(height_of_width * px))),
-                     width);
-  write_whole_file(out, format == "svg" ? svg + "\n" : converted(svg, format));
+  const int px = pixels_of_figure(width);
+  const auto height = static_cast<int>(std::lround(height_of_width * px));
+  write_figure(out, plot::draw_svg(restitution_overview(analysis, px, height), width));
   print_line(plain_text(figure_caption(analysis)));
   print_text("{}: written\n", out.string());
 }
 
 }  // namespace
+
+void require_figure(const fs::path& file) {
+  format_of(file);
+  require_free({file});
+}
+
+void write_figure(const fs::path& file, const std::string& svg) {
+  const std::string format = format_of(file);
+  write_whole_file(file, format == "svg" ? svg + "\n" : converted(svg, format));
+}
+
+int pixels_of_figure(double width) { return static_cast<int>(std::lround(width * letters_per_mm)); }
 
 void add_figure(Program& program) {
   program.command("figure", "draw e against V for a publication", R"(

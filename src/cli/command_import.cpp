@@ -14,6 +14,7 @@
 #include "experiment/import.hpp"
 #include "experiment/look.hpp"
 #include "options/useless_options.hpp"
+#include "plot/draw.hpp"
 #include "report/dataset_report.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_restitution.hpp"
@@ -147,9 +148,16 @@ void run_bounce(const GivenOptions& given) {
                      "use recoil import, which prints e, too");
   }
   const double density = set_ball(given, request);
+  const std::string out = given.text("--out");
+  if (!out.empty()) require_figure(out);
   const ImportResult result = read_bounces(request, density);
   print_summary(result.dataset, false);
   for (const ImportNote& note : result.notes) print_line("note: " + note_sentence(note));
+  if (out.empty()) return;
+  constexpr double width = 120.0;  // [mm]
+  write_figure(out,
+               plot::draw_svg(restitution_picture(result.dataset, pixels_of_figure(width)), width));
+  print_text("{}: written\n", out);
 }
 
 /// Says what the file holds, and what is missing to import it.
@@ -216,12 +224,12 @@ overwrites points only with --replace.
 void add_bounce(Program& program) {
   program.command("bounce", "the restitution of a ball from heights, times or a track", R"(
 Prints the mean e with its interval, its dependence on the velocity and the differences between
-series, and writes nothing. The ball needs its size and mass for the drag of air, no other constant.
+series, and writes nothing but the picture that --out names. The ball needs its size and mass for the drag of air, no other constant.
 Several bounces of one drop are a launch (--map launch=COLUMN); series=COLUMN names what is to be
 compared: balls, floors, temperatures.
 
   recoil bounce drops.csv --format heights --ball tennis \
-    --map drop_height=h1:cm,rebound_height=h2:cm --rebound-error 5mm
+    --map drop_height=h1:cm,rebound_height=h2:cm --rebound-error 5mm --out drops.svg
   recoil bounce times.csv --format intervals --diameter 8mm --mass 0.0021 \
     --map launch=run,interval=t:s --time-error 1ms)",
                   run_bounce);

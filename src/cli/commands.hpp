@@ -56,6 +56,16 @@ inline constexpr const char* new_fit_file =
 /// lost. @throws InputError if they cannot be written
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
 
+/// Requires that a figure can be written to `file`. @throws InputError if its name states none of
+/// the formats .pdf, .svg and .png, or if it exists and is not of recoil
+void require_figure(const std::filesystem::path& file);
+
+/// Writes a figure of recoil in the format that the name of the file states. @param svg the figure
+void write_figure(const std::filesystem::path& file, const std::string& svg);
+
+/// The pixels of a figure for print. @param width of the figure [mm]
+int pixels_of_figure(double width);
+
 /// @throws InputError unless the two values of --velocity ascend
 void require_range(const std::vector<double>& velocity);
 

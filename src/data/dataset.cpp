@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "core/files.hpp"
 #include "data/csv.hpp"
@@ -33,7 +34,7 @@ class PointReader {
         return;
       }
       for (const Column& column : package_.columns) {
-        field_of_.emplace(column.quantity, header_.size());
+        field_of_[column.quantity] = header_.size();
         header_.push_back(&column);
       }
     }
@@ -79,14 +80,14 @@ class PointReader {
                              : did_you_mean(cell.text, names));
       }
       const Column& known = package_.columns[static_cast<std::size_t>(column - names.begin())];
-      if (!field_of_.emplace(known.quantity, header_.size()).second) {
+      if (std::exchange(field_of_[known.quantity], header_.size())) {
         fail(cell, fmt::format("the column '{}' appears twice", cell.text), "",
              "remove or rename one");
       }
       header_.push_back(&known);
     }
     for (const Column& column : package_.columns) {
-      if (field_of_.contains(column.quantity)) continue;
+      if (field_of_[column.quantity]) continue;
       throw InputError({file_, header_line_, 1},
                        fmt::format("the column '{}' is missing", column.name),
                        "the schema in datapackage.json lists it",
@@ -111,13 +112,15 @@ class PointReader {
                      "correct it, or leave the cell empty when it is not known");
   }
 
-  const CsvField& field(Quantity quantity) const { return (*row_)[field_of_.at(quantity)]; }
+  bool has(Quantity quantity) const { return field_of_[quantity].has_value(); }
 
-  const Column& column(Quantity quantity) const { return *header_[field_of_.at(quantity)]; }
+  const CsvField& field(Quantity quantity) const { return (*row_)[field_of_[quantity].value()]; }
+
+  const Column& column(Quantity quantity) const { return *header_[field_of_[quantity].value()]; }
 
   /// The cell of a quantity; null if there is no such column or the value is missing.
   const CsvField* cell(Quantity quantity) const {
-    if (!field_of_.contains(quantity)) return nullptr;
+    if (!has(quantity)) return nullptr;
     const CsvField& found = field(quantity);
     const auto& missing = column(quantity).missing_values;
     const bool unknown =
@@ -141,10 +144,13 @@ class PointReader {
            "the schema says boolean",
            fmt::format("write {} or {}", join(column.yes), join(column.no)));
     }
-    const double value = number_in(
-        cell, file_,
-        fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit),
-        column.format);
+    const auto parsed = parse_number(cell.text, column.format);
+    const double value =
+        parsed ? *parsed
+               : number_in(cell, file_,
+                           fmt::format("'{}'{}", column.name,
+                                       column.unit.empty() ? "" : " in " + column.unit),
+                           column.format);
     if (value < column.minimum.value_or(value) || value > column.maximum.value_or(value)) {
       const bool low = value < column.minimum.value_or(value);
       fail(cell, fmt::format("{} = {}", column.name, printable(cell.text)),
@@ -209,17 +215,20 @@ class PointReader {
       fail(field(Quantity::series), "'series' is empty", "points are grouped by it",
            "give the series a name");
     }
-    if (printable(name->text) != name->text) {
+    const bool again = last_series_ != series_of_.end() && last_series_->first.first == name->text;
+    if (!again && printable(name->text) != name->text) {
       fail(*name, "the name of the series has control characters", "",
            "use letters, digits and blanks");
     }
     const Conditions stated = stated_conditions();
+    if (again && last_series_->first.second == stated) return last_series_->second;
     const auto [known, added] =
         series_of_.try_emplace(std::pair(name->text, stated), dataset_.series.size());
     if (added) {
       dataset_.series.push_back(name->text);
       dataset_.series_conditions.push_back(stated);
     }
+    last_series_ = known;
     return known->second;
   }
 
@@ -256,7 +265,7 @@ class PointReader {
   /// The restitution of a point. 0 if all spheres were captured, and if only counts are known
   /// (`restitution` or `rebound_velocity` is empty beside `events` and `captured`).
   double restitution(ImpactPoint& point) const {
-    const bool rebound = field_of_.contains(Quantity::rebound_velocity);
+    const bool rebound = has(Quantity::rebound_velocity);
     const Quantity quantity = rebound ? Quantity::rebound_velocity : Quantity::restitution;
     constexpr double largest = limits::restitution.upper;
     std::optional<double> known;
@@ -269,7 +278,7 @@ class PointReader {
                          : "it is at most 1.2 times the incident velocity: correct one of "
                            "them, or its unit"});
       if (known) known = std::min(*known / point.incident_velocity, largest);
-    } else if (field_of_.contains(quantity)) {
+    } else if (has(quantity)) {
       Range range = limits::restitution;
       range.hint = "a rebound is not faster than the impact: correct it; in per cent its unit is %";
       known = value(quantity, range);
@@ -291,7 +300,7 @@ class PointReader {
     }
     point.counts_only = !known && point.counted && cell(Quantity::events) != nullptr;
     if (known || point.counts_only) return known.value_or(0.0);
-    if (field_of_.contains(quantity)) {
+    if (has(quantity)) {
       fail_empty(quantity, "not all spheres of this point were captured");
     }
     fail_empty(point.counted ? Quantity::events : Quantity::captured,
@@ -300,7 +309,7 @@ class PointReader {
 
   /// The angle of this row from the normal [rad]; 0 without such a column.
   double incidence_angle() const {
-    if (!field_of_.contains(Quantity::incidence_angle)) return 0.0;
+    if (!has(Quantity::incidence_angle)) return 0.0;
     if (const auto angle = value(Quantity::incidence_angle, limits::incidence_angle)) return *angle;
     fail(field(Quantity::incidence_angle),
          fmt::format("'{}' is empty", column(Quantity::incidence_angle).name),
@@ -430,8 +439,9 @@ class PointReader {
   const CsvRow* row_ = nullptr;
   int header_line_ = 1;
   std::vector<const Column*> header_;  ///< of each field of a row
-  std::map<Quantity, std::size_t> field_of_;
+  PerValue<Quantity, std::optional<std::size_t>> field_of_;
   std::map<std::pair<std::string, Conditions>, std::size_t> series_of_;
+  decltype(series_of_)::const_iterator last_series_ = series_of_.end();
   std::map<PointRemark, DatasetWarning> warnings_;
   struct StatedSd {
     double of_impact;  ///< sqrt(rebounds) times what is stated [1]
@@ -455,7 +465,7 @@ Dataset without_points(const Package& package, const std::string& package_text,
   dataset.system = package.system;
   dataset.sources = package.sources;
   dataset.folder = folder;
-  dataset.sha256 = sha256_hex(package_text + "\n");
+  dataset.sha256 = checksum_of(package_text, "");
   return dataset;
 }
 
@@ -470,7 +480,7 @@ Dataset with_points(const Package& package, const std::string& package_text,
       csv_text, file, package.delimiter, [&](const CsvRow& row) { reader.read_row(row); },
       package.comment);
   reader.finish();
-  dataset.sha256 = sha256_hex(package_text + "\n" + csv_text);
+  dataset.sha256 = checksum_of(package_text, csv_text);
   return dataset;
 }
 
@@ -579,6 +589,10 @@ Dataset parse_dataset(const std::string& datapackage_text, const std::string& cs
 Dataset load_dataset(const fs::path& folder) { return load(folder, false); }
 
 Dataset load_dataset_to_be_measured(const fs::path& folder) { return load(folder, true); }
+
+std::string checksum_of(const std::string& datapackage_text, const std::string& csv_text) {
+  return sha256_hex(datapackage_text + "\n" + csv_text);
+}
 
 std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets) {
   std::vector<std::string> remarks;

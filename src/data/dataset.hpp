@@ -127,6 +127,9 @@ Dataset load_dataset_to_be_measured(const std::filesystem::path& folder);
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder);
 
+/// The checksum of a dataset with these texts.
+std::string checksum_of(const std::string& datapackage_text, const std::string& csv_text);
+
 /// For each reconstruction among `datasets`, a sentence that its points are computed from a recipe.
 std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets);
 

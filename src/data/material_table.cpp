@@ -46,6 +46,17 @@ constexpr TabledMaterial materials[] = {
     {"copper", "C11000, hot rolled", 8890.0, 115.0 * GPa, 115.0 * GPa, 0.33, 0.01, 69.0 * MPa},
     {"fused-silica", "", 2200.0, 73.0 * GPa, 73.0 * GPa, 0.17},
     {"glass", "soda-lime", 2500.0, 69.0 * GPa, 69.0 * GPa, 0.23},
+    {.name = "granite",
+     .what = "of floors and walls",
+     .density = 2700.0,
+     .lowest_modulus = 30.0 * GPa,
+     .highest_modulus = 60.0 * GPa,
+     .poisson_ratio = 0.25,
+     .poisson_ratio_sd = 0.05,
+     .source =
+         "National Research Council (1982). Conservation of Historic Stone Buildings and "
+         "Monuments, National Academy Press, p. 64 (Young's modulus); MakeItFrom.com, Granite "
+         "(Poisson's ratio)"},
     {.name = "ice",
      .what = "polycrystal at 257 K",
      .density = 920.0,
@@ -119,6 +130,16 @@ constexpr TabledMaterial materials[] = {
          "Foote, K. G. & MacLennan, D. N. (1984). J. Acoust. Soc. Am. 75, 612-616: density "
          "and speeds of sound (6864 and 4161.2 m/s) of calibration spheres, from which follow "
          "Young's modulus and Poisson's ratio"},
+    {.name = "wood",
+     .what = "oak or maple, across the grain",
+     .density = 700.0,
+     .lowest_modulus = 0.90 * GPa,
+     .highest_modulus = 2.2 * GPa,
+     .poisson_ratio = 0.4,
+     .poisson_ratio_sd = 0.1,
+     .source = "Forest Products Laboratory (1999). Wood Handbook, FPL-GTR-113, chapter 4: modulus "
+               "along the grain 1.1 times that in bending, times the elastic ratios, tangential of "
+               "sugar maple to radial of white oak, at 12 % moisture"},
     {"zirconia", "3 mol% yttria", 6000.0, 205.0 * GPa, 205.0 * GPa, 0.31},
 };
 
@@ -152,8 +173,10 @@ constexpr OtherName other_names[] = {
     {"stainlesssteel304", "stainless"},
     {"stainlesssteel316", "stainless-316"},
     {"stainlesssteel440", "stainless-440"},
+    {"stone", "granite"},
     {"teflon", "ptfe"},
     {"vitreoussilica", "fused-silica"},
+    {"woodfloor", "wood"},
 };
 
 /// The material with this name, or with another one that means the same; null for an unknown name.

@@ -219,11 +219,14 @@ class BoxDescent {
     where_.resize(q);
     low_.resize(q);
     high_.resize(q);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double* const row = &result_.jacobian[static_cast<std::size_t>(i) * p];
+      for (Eigen::Index k = 0; k < q; ++k) {
+        jacobian_(i, k) = row[free_[static_cast<std::size_t>(k)]];
+      }
+    }
     for (Eigen::Index k = 0; k < q; ++k) {
       const std::size_t j = free_[static_cast<std::size_t>(k)];
-      for (Eigen::Index i = 0; i < n; ++i) {
-        jacobian_(i, k) = result_.jacobian[static_cast<std::size_t>(i) * p + j];
-      }
       const double theta = result_.theta[j];
       if (const double length = jacobian_.col(k).norm(); theta != 0.0) {
         units_(k) = std::max(units_(k), power_of_two(theta));

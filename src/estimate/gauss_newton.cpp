@@ -12,8 +12,12 @@ namespace {
 
 constexpr int most_steps = 30;
 
-/// The number of rows that `triangular_factor` takes at once for `q` columns.
-Eigen::Index rows_at_a_time(Eigen::Index q) { return std::max<Eigen::Index>(2048, 16 * q); }
+/// The number of rows of `n` that `triangular_factor` takes at once for `q` columns: of many, as
+/// many as stay in the cache.
+Eigen::Index rows_at_a_time(Eigen::Index n, Eigen::Index q) {
+  constexpr Eigen::Index some = 2048;
+  return std::max<Eigen::Index>(n <= 2 * some ? some : 256, 16 * q);
+}
 
 constexpr double all_digits = 1e-13;  // relative step below which theta does not change
 // Relative; residuals may be small differences of large numbers.
@@ -148,7 +152,7 @@ class StepHistory {
 Eigen::MatrixXd triangular_factor(
     Eigen::Index n, Eigen::Index q,
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index count)>& rows) {
-  const Eigen::Index at_a_time = rows_at_a_time(q);
+  const Eigen::Index at_a_time = rows_at_a_time(n, q);
   Eigen::MatrixXd triangle(0, q);
   for (Eigen::Index first = 0; first < n; first += at_a_time) {
     const Eigen::Index count = std::min(at_a_time, n - first);
@@ -178,7 +182,7 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
     rows.col(q) = residuals.segment(first, count);
     return rows;
   };
-  if (n <= 2 * rows_at_a_time(q + 1)) return some(0, n);
+  if (n <= 4096) return some(0, n);
   return triangular_factor(n, q + 1, some);
 }
 

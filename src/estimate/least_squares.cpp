@@ -169,12 +169,13 @@ std::vector<double> covariance_of(const LinearisedResiduals& linear,
 }
 
 /// The parameters whose column of J is too short to change the residuals over any plausible range.
+/// @param rows linearised at the result
 std::vector<std::size_t> without_effect(const LeastSquaresProblem& problem,
                                         std::span<const double> start,
                                         const LeastSquaresResult& result,
-                                        const std::vector<std::size_t>& moving) {
+                                        const std::vector<std::size_t>& moving,
+                                        const Eigen::MatrixXd& rows) {
   std::vector<std::size_t> flat;
-  const Eigen::MatrixXd rows = linearised_rows(result, moving);
   const Eigen::VectorXd lengths = rows.leftCols(rows.cols() - 1).colwise().norm();
   const double residual = std::sqrt(result.sum_of_squares);
   for (std::size_t k = 0; k < moving.size(); ++k) {
@@ -351,7 +352,8 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
   if (!finished) result = descend_within_bounds(problem, start, fixed, options);
   if (result.end != DescentEnd::minimum) return result;
   const std::vector<std::size_t> moving = moving_of(result, fixed);
-  result.flat = without_effect(problem, start, result, moving);
+  Eigen::MatrixXd rows = linearised_rows(result, moving);
+  result.flat = without_effect(problem, start, result, moving, rows);
   if (!result.flat.empty()) {
     result.end = DescentEnd::flat;
     return result;
@@ -361,8 +363,10 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
     result.covariance.assign(start.size() * start.size(), 0.0);
     return result;
   }
-  if (options.finish && !finished) finish_by_gauss_newton(problem, moving, result);
-  const Eigen::MatrixXd rows = linearised_rows(result, moving);
+  if (options.finish && !finished) {
+    finish_by_gauss_newton(problem, moving, result);
+    rows = linearised_rows(result, moving);
+  }
   const LinearisedResiduals linear(rows.leftCols(rows.cols() - 1));
   if (linear.singular()) {
     result.end = DescentEnd::valley;

@@ -66,10 +66,14 @@ double Prediction::restitution() const { return std::sqrt(std::max(restitution_s
 
 PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
                                Effects effects)
+    : PointPredictor(model, std::move(points), effects, true, model.law_error.get()) {}
+
+PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
+                               Effects effects, bool grid, const LawError* law_error)
     : model_(model),
+      effects_(effects),
+      law_error_(law_error),
       points_(std::move(points)),
-      beta_per_f0_(points_.size()),
-      range_per_f0_(points_.size()),
       C_H_(model.contacts.size()),
       C_A_(model.contacts.size()),
       force_(model.contacts.size()),
@@ -78,6 +82,25 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       range_scale_(model.contacts.size(), 1.0),
       material_slopes_(model.contacts.size()),
       surroundings_(model.surroundings) {
+  if (law_error != nullptr) {
+    const std::size_t count = law_error->count();
+    law_functions_.resize(points_.size() * count);
+    loss_factor_.resize(points_.size());
+    over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t own) {
+      for (std::size_t i = first; i < first + own; ++i) {
+        law_error->functions(points_[i], std::span(law_functions_).subspan(i * count, count));
+      }
+    });
+  }
+
+  if (grid) grid_ = VelocityGrid::for_points(points_);
+  if (grid_) {
+    nodes_.reset(new PointPredictor(model, grid_->nodes(), effects, false, nullptr));
+    place_of_direct_.assign(points_.size(), no_slot);
+    return;
+  }
+  beta_per_f0_.resize(points_.size());
+  range_per_f0_.resize(points_.size());
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
       const PointConditions& p = points_[i];
@@ -95,17 +118,6 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       range_per_f0_[i] = groups.range;
     }
   });
-
-  if (model.law_error) {
-    const std::size_t count = model.law_error->count();
-    law_functions_.resize(points_.size() * count);
-    loss_factor_.resize(points_.size());
-    over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t own) {
-      for (std::size_t i = first; i < first + own; ++i) {
-        model.law_error->functions(points_[i], std::span(law_functions_).subspan(i * count, count));
-      }
-    });
-  }
 
   // Above this number sorting costs more than the impacts.
   constexpr std::size_t few = 8 * points_of_block;
@@ -146,6 +158,8 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 void PointPredictor::take_parameters(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
   end_if_called_off();
+  if (law_error_ != nullptr) take_law_error(theta);
+  if (grid_) return;
   for (std::size_t d = 0; d < force_.size(); ++d) {
     C_H_[d] = theta[model_.slot_C_H[d]];
     C_A_[d] = theta[model_.slot_C_A[d]];
@@ -153,7 +167,6 @@ void PointPredictor::take_parameters(std::span<const double> theta, bool gradien
     force_slope_[d] = adhesion_force_slope(model_, theta, d);
   }
   if (model_.material_count() > 0) take_materials(theta, gradient);
-  if (model_.law_error) take_law_error(theta);
 }
 
 void PointPredictor::take_law_error(std::span<const double> theta) {
@@ -166,7 +179,7 @@ void PointPredictor::take_law_error(std::span<const double> theta) {
 }
 
 void PointPredictor::bend(std::size_t first, std::span<ImpactResult> answers) const {
-  if (!model_.law_error) return;
+  if (law_error_ == nullptr) return;
   for (std::size_t k = 0; k < answers.size(); ++k) {
     ImpactResult& answer = answers[k];
     if (!answer.usable()) continue;
@@ -220,6 +233,7 @@ void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   last_theta_.assign(theta.begin(), theta.end());
   last_gradient_ = gradient;
   results_.resize(points_.size());
+  if (grid_) return evaluate_grid(theta, gradient);
   const ImpactOptions options = model_.impact_options(gradient);
   if (extended_) {
     evaluate_extended(theta, options);
@@ -235,8 +249,76 @@ void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   handovers_ += handed_over;
 }
 
+template <class Of>
+double PointPredictor::from_grid(std::size_t i, const Of& of) const {
+  const std::size_t direct = place_of_direct_[i];
+  if (direct != no_slot) return of(*direct_, direct);
+  double sum = 0.0;
+  grid_->for_each_neighbour(
+      i, [&](std::size_t node, double weight) { sum += weight * of(*nodes_, node); });
+  return sum;
+}
+
+void PointPredictor::choose_direct(std::span<const double> theta, bool gradient) {
+  std::vector<double> squares(nodes_->size());
+  for (std::size_t node = 0; node < squares.size(); ++node) {
+    const ImpactResult& at = nodes_->at(node);
+    squares[node] = at.usable() ? at.restitution_squared : NAN;
+  }
+  std::vector<std::size_t> direct = grid_->rough_points(squares);
+  if (direct != direct_points_) {
+    for (const std::size_t i : direct_points_) place_of_direct_[i] = no_slot;
+    std::vector<PointConditions> points;
+    for (const std::size_t i : direct) {
+      place_of_direct_[i] = points.size();
+      points.push_back(points_[i]);
+    }
+    direct_.reset(points.empty()
+                      ? nullptr
+                      : new PointPredictor(model_, std::move(points), effects_, false, nullptr));
+    direct_points_ = std::move(direct);
+  }
+  if (!direct_) return;
+  const long before = direct_->handovers();
+  direct_->evaluate(theta, gradient);
+  handovers_ += direct_->handovers() - before;
+}
+
+void PointPredictor::evaluate_grid(std::span<const double> theta, bool gradient) {
+  const auto rows_of = [&](const PointPredictor& simulated, std::vector<double>& rows) {
+    const std::size_t count = model_.slots.size();
+    rows.resize(simulated.size() * count);
+    for (std::size_t k = 0; k < simulated.size(); ++k) {
+      simulated.gradient_row(k, 1.0, std::span(rows).subspan(k * count, count));
+    }
+  };
+  const long before = nodes_->handovers();
+  nodes_->evaluate(theta, gradient);
+  handovers_ += nodes_->handovers() - before;
+  choose_direct(theta, gradient);
+  if (gradient) {
+    rows_of(*nodes_, node_rows_);
+    if (direct_) rows_of(*direct_, direct_rows_);
+  }
+  over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      ImpactResult& answer = results_[i];
+      if (place_of_direct_[i] != no_slot) {
+        answer = direct_->at(place_of_direct_[i]);
+        continue;
+      }
+      answer.restitution_squared = from_grid(i, [](const PointPredictor& simulated, std::size_t k) {
+        return simulated.at(k).restitution_squared;
+      });
+      answer.outcome =
+          answer.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+    }
+    bend(first, std::span(results_).subspan(first, count));
+  });
+}
+
 bool PointPredictor::keeps_answers() const {
-  return extended_ || points_.size() <= points_of_block;
+  return grid_ || extended_ || points_.size() <= points_of_block;
 }
 
 void PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradient,
@@ -255,11 +337,13 @@ void PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradien
         evaluate(theta, gradient);
       }
     }
-    if (gradient && first_theta_.empty() && !extended_) {
+    if (gradient && first_theta_.empty() && !extended_ && !grid_) {
       first_theta_.assign(theta.begin(), theta.end());
       first_results_ = results_;
     }
-    take(0, results_);
+    over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+      take(first, std::span(results_).subspan(first, count));
+    });
     return;
   }
   take_parameters(theta, gradient);
@@ -307,12 +391,24 @@ void PointPredictor::evaluate_extended(std::span<const double> theta,
 void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, double scale,
                                   std::span<double> row) const {
   base_gradient_row(i, answer, scale * loss_factor(i), row);
-  if (!model_.law_error) return;
+  if (law_error_ == nullptr) return;
   const double loss = (1.0 - answer.restitution_squared) / loss_factor(i);
-  const std::size_t count = model_.law_error->count();
+  const std::size_t count = law_error_->count();
   for (std::size_t k = 0; k < count; ++k) {
     row[model_.first_law_slot() + k] = -scale * loss * law_functions_[i * count + k];
   }
+}
+
+void PointPredictor::add_grid_row(std::size_t i, double scale, std::span<double> row) const {
+  const std::size_t direct = place_of_direct_[i];
+  const std::vector<double>& rows = direct != no_slot ? direct_rows_ : node_rows_;
+  const std::size_t count = law_error_ != nullptr ? model_.first_law_slot() : row.size();
+  const auto add = [&](std::size_t from, double weight) {
+    const double* slopes = &rows[from * row.size()];
+    for (std::size_t j = 0; j < count; ++j) row[j] += weight * slopes[j];
+  };
+  if (direct != no_slot) return add(direct, scale);
+  grid_->for_each_neighbour(i, [&](std::size_t node, double weight) { add(node, scale * weight); });
 }
 
 void PointPredictor::base_gradient_row(std::size_t i, const ImpactResult& answer, double scale,
@@ -320,6 +416,7 @@ void PointPredictor::base_gradient_row(std::size_t i, const ImpactResult& answer
   const PointConditions& p = points_[i];
   const auto& by_group = answer.gradient;
   std::fill(row.begin(), row.end(), 0.0);
+  if (grid_) return add_grid_row(i, scale, row);
   if (extended_) {
     const std::span<const double> slopes = extended_->slopes(i).subspan(2);
     const std::size_t count = extended_->value_count();
@@ -357,13 +454,13 @@ void PointPredictor::base_gradient_row(std::size_t i, const ImpactResult& answer
 
 double PointPredictor::bent_slope(std::size_t i, double slope,
                                   double PointConditions::*input) const {
-  if (!model_.law_error) return slope;
+  if (law_error_ == nullptr) return slope;
   constexpr double step = 1e-4;  // relative; g is smooth, so the error is about its square
   const auto g = [&](double factor) {
     PointConditions beside = points_[i];
     beside.*input *= factor;
-    return (*model_.law_error)(
-        beside, std::span<const double>(last_theta_).subspan(model_.first_law_slot()));
+    return (*law_error_)(beside,
+                         std::span<const double>(last_theta_).subspan(model_.first_law_slot()));
   };
   const double bend = (g(1.0 + step) - g(1.0 - step)) / (2.0 * step * points_[i].*input);
   const double loss = (1.0 - results_[i].restitution_squared) / loss_factor(i);
@@ -371,6 +468,12 @@ double PointPredictor::bent_slope(std::size_t i, double slope,
 }
 
 double PointPredictor::velocity_slope(std::size_t i) const {
+  if (grid_) {
+    const double slope = from_grid(i, [](const PointPredictor& simulated, std::size_t k) {
+      return simulated.velocity_slope(k);
+    });
+    return bent_slope(i, slope, &PointConditions::velocity);
+  }
   if (extended_) return bent_slope(i, extended_->slopes(i)[0], &PointConditions::velocity);
   const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
@@ -381,6 +484,12 @@ double PointPredictor::velocity_slope(std::size_t i) const {
 }
 
 double PointPredictor::diameter_slope(std::size_t i) const {
+  if (grid_) {
+    const double slope = from_grid(i, [](const PointPredictor& simulated, std::size_t k) {
+      return simulated.diameter_slope(k);
+    });
+    return bent_slope(i, slope, &PointConditions::diameter);
+  }
   if (extended_) return bent_slope(i, extended_->slopes(i)[1], &PointConditions::diameter);
   // beta ~ f0 R^(1/5) m^(-2/5) with f0 ~ R^(1/3) (eq. 12); lambda ~ f0. On a flat R ~ D, m ~ D^3.
   const ImpactGroups g = groups_at(i);

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "estimate/model.hpp"
 #include "estimate/observation.hpp"
+#include "estimate/velocity_grid.hpp"
 
 namespace recoil {
 
@@ -36,8 +38,9 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 /// theta are computed once; for few points, no memory is allocated after the first evaluation. Many
 /// points are simulated in blocks on all threads of the caller's arena; results do not depend on
 /// the number of threads. For few points, the results at the last theta are kept, and those at the
-/// first theta with gradients, because refits of samples start there. Its many private members are
-/// this memory.
+/// first theta with gradients, because refits of samples start there. Many points of few diameters
+/// are interpolated between simulated ones (VelocityGrid). Its many private members are this
+/// memory.
 class PointPredictor {
  public:
   /// Keeps a reference to `model`, which must outlive it and not change.
@@ -75,6 +78,17 @@ class PointPredictor {
   double diameter_slope(std::size_t i) const;
 
  private:
+  /// @param grid whether points may be interpolated
+  /// @param law_error null: none
+  PointPredictor(const ImpactModel& model, std::vector<PointConditions> points, Effects effects,
+                 bool grid, const LawError* law_error);
+  /// Simulates the nodes of the grid, and the points between which it does not interpolate.
+  void evaluate_grid(std::span<const double> theta, bool gradient);
+  void choose_direct(std::span<const double> theta, bool gradient);
+  /// A quantity of point i, given that of a simulated point: of(predictor, its index there).
+  template <class Of>
+  double from_grid(std::size_t i, const Of& of) const;
+  void add_grid_row(std::size_t i, double scale, std::span<double> row) const;
   void take_parameters(std::span<const double> theta, bool gradient);
   void take_materials(std::span<const double> theta, bool gradient);
   void take_law_error(std::span<const double> theta);
@@ -92,7 +106,15 @@ class PointPredictor {
   void evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
 
   const ImpactModel& model_;
+  Effects effects_;
+  const LawError* law_error_;
   std::vector<PointConditions> points_;
+  std::optional<VelocityGrid> grid_;
+  std::unique_ptr<PointPredictor> nodes_;     // of the grid
+  std::unique_ptr<PointPredictor> direct_;    // points that the grid does not interpolate; or null
+  std::vector<std::size_t> direct_points_;    // their indices
+  std::vector<std::size_t> place_of_direct_;  // for every point its index among them, or none
+  std::vector<double> node_rows_, direct_rows_;  // d e^2 / d theta there [points x slots]
   /// For every point the index of the first with the same conditions, whose result it takes; empty
   /// if all points differ.
   std::vector<std::size_t> alike_;

@@ -5,9 +5,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -33,6 +35,7 @@ struct Reading {
   double e = 0.0;
   double sd = 0.0;  ///< stated; 0: none
   double velocity = 0.0;
+  std::string_view setting;   ///< its name; empty: none is stated
   std::size_t series = 0;     ///< index among all series of all datasets
   std::size_t place = 0;      ///< index of its setting among all settings
   std::size_t launch = none;  ///< index among all launches
@@ -55,13 +58,32 @@ std::optional<double> usual_error(const std::vector<Dataset>& datasets) {
   return median(std::move(stated));
 }
 
+using Readings = std::span<const Reading>;
+
+/// Successive readings with the same key(reading) each.
+template <class Key>
+std::vector<Readings> runs_of(Readings readings, const Key& key) {
+  std::vector<Readings> runs;
+  for (std::size_t first = 0, last = 0; first < readings.size(); first = last) {
+    while (last < readings.size() && key(readings[last]) == key(readings[first])) ++last;
+    runs.push_back(readings.subspan(first, last - first));
+  }
+  return runs;
+}
+
+/// What readings of one setting have in common: its name, or their velocity.
+std::pair<std::string_view, double> setting_of(const Reading& reading) {
+  return {reading.setting, reading.setting.empty() ? reading.velocity : 0.0};
+}
+
 /// A series at one size.
 struct Group {
   std::size_t dataset = 0;
   std::size_t series = 0;
-  std::size_t size = 0;   ///< index of the size within its dataset
-  double diameter = 0.0;  ///< mean [m]
-  std::map<std::tuple<std::string, double>, std::vector<Reading>> settings;
+  std::size_t size = 0;            ///< index of the size within its dataset
+  double diameter = 0.0;           ///< mean [m]
+  std::vector<Reading> readings;   ///< by setting
+  std::vector<Readings> settings;  ///< parts of `readings`
 };
 
 /// The number of the size of every diameter of a dataset.
@@ -104,6 +126,7 @@ std::vector<Group> groups_of(const std::vector<Dataset>& datasets, std::optional
       reading.e = point.restitution;
       reading.sd = point.restitution_sd.value_or(usual.value_or(0.0));
       reading.velocity = point.incident_velocity;
+      reading.setting = point.setting;
       if (!point.launch.empty()) {
         reading.launch =
             launches.try_emplace({d, point.series, point.launch}, launches.size()).first->second;
@@ -114,19 +137,18 @@ std::vector<Group> groups_of(const std::vector<Dataset>& datasets, std::optional
         reading.linked = {runs + linked[i].launch, linked[i].bounce};
         own_runs = std::max(own_runs, linked[i].launch + 1);
       }
-      const bool named = !point.setting.empty();
-      group.settings[{point.setting, named ? 0.0 : point.incident_velocity}].push_back(reading);
+      group.readings.push_back(reading);
     }
     runs += own_runs;
   }
   std::vector<Group> found;
   for (auto& [key, group] : groups) {
+    std::ranges::stable_sort(group.readings, {}, setting_of);
+    group.settings = runs_of(group.readings, setting_of);
     double count = 0.0;
-    for (const auto& [setting, readings] : group.settings) {
-      for (const Reading& reading : readings) {
-        count += 1.0;
-        group.diameter += (reading.point->diameter - group.diameter) / count;
-      }
+    for (const Reading& reading : group.readings) {
+      count += 1.0;
+      group.diameter += (reading.point->diameter - group.diameter) / count;
     }
     found.push_back(std::move(group));
   }
@@ -134,7 +156,7 @@ std::vector<Group> groups_of(const std::vector<Dataset>& datasets, std::optional
 }
 
 /// The launches of readings; 0 unless all have one.
-std::size_t count_launches(const std::vector<Reading>& readings) {
+std::size_t count_launches(Readings readings) {
   std::set<std::size_t> launches;
   for (const Reading& r : readings) {
     if (r.launch == none) return 0;
@@ -144,7 +166,7 @@ std::size_t count_launches(const std::vector<Reading>& readings) {
 }
 
 /// Variance of the sum of e over readings from their stated errors.
-double variance_of_sum(const std::vector<Reading>& readings) {
+double variance_of_sum(Readings readings) {
   double sum = 0.0;
   std::map<std::pair<std::size_t, std::size_t>, double> instants;  // loads by run and instant
   for (const Reading& r : readings) {
@@ -161,7 +183,7 @@ double variance_of_sum(const std::vector<Reading>& readings) {
   return sum;
 }
 
-RestitutionMean mean_of(const Group& group, const std::vector<Reading>& readings) {
+RestitutionMean mean_of(const Group& group, Readings readings) {
   RestitutionMean found;
   found.dataset = group.dataset;
   found.series = group.series;
@@ -206,30 +228,25 @@ RestitutionMean mean_of(const Group& group, const std::vector<Reading>& readings
   return found;
 }
 
-double mean_velocity(const std::vector<Reading>& readings) {
+double mean_velocity(Readings readings) {
   double sum = 0.0;
   for (const Reading& r : readings) sum += r.velocity;
   return sum / static_cast<double>(readings.size());
 }
 
 void add_means(const Group& group, std::vector<RestitutionMean>& means) {
-  std::vector<Reading> all;
-  bool repeated = false;
-  for (const auto& [key, points] : group.settings) {
-    all.insert(all.end(), points.begin(), points.end());
-    repeated = repeated || points.size() > 1;
-  }
-  means.push_back(mean_of(group, all));
+  means.push_back(mean_of(group, group.readings));
+  const bool repeated = group.readings.size() > group.settings.size();
   if (!repeated || group.settings.size() < 2) return;
-  for (const auto& [key, points] : group.settings) {
+  for (const Readings points : group.settings) {
     RestitutionMean of_setting = mean_of(group, points);
-    of_setting.setting = std::get<0>(key);
+    of_setting.setting = points.front().setting;
     of_setting.velocity = mean_velocity(points);
     means.push_back(std::move(of_setting));
   }
 }
 
-RestitutionRange::End end_of(const std::vector<Reading>& readings) {
+RestitutionRange::End end_of(Readings readings) {
   RestitutionRange::End end{mean_velocity(readings)};
   double variance = 0.0;
   bool stated = true;
@@ -250,7 +267,7 @@ std::vector<RestitutionRange> ranges_of(const std::vector<Group>& groups) {
     RestitutionRange& range = sizes[{group.dataset, group.size}];
     if (range.settings == 0) range.diameter = group.diameter;
     range.dataset = group.dataset;
-    for (const auto& [key, points] : group.settings) {
+    for (const Readings points : group.settings) {
       const RestitutionRange::End end = end_of(points);
       const bool first = range.settings++ == 0;
       if (first || end.velocity < range.slowest.velocity) range.slowest = end;
@@ -272,7 +289,7 @@ bool comparable(const Group& a, const Group& b) {
 /// e = a_series + b log10 V, and c (log10 V)^2 in degree 2, by weighted least squares.
 class Line {
  public:
-  Line(const std::vector<Reading>& readings, std::size_t series, Eigen::Index degree = 1)
+  Line(Readings readings, std::size_t series, Eigen::Index degree = 1)
       : stated_(std::all_of(readings.begin(), readings.end(),
                             [](const Reading& r) { return r.sd > 0.0; })),
         launches_(count_launches(readings)) {
@@ -384,8 +401,7 @@ class Line {
   }
 
   /// Solves with the covariance of the readings: the stated one, and an independent `extra` error.
-  void solve(const std::vector<Reading>& readings, Eigen::MatrixXd X, Eigen::VectorXd y,
-             double extra) {
+  void solve(Readings readings, Eigen::MatrixXd X, Eigen::VectorXd y, double extra) {
     std::map<std::size_t, std::vector<Eigen::Index>> runs;
     for (Eigen::Index i = 0; stated_ && i < y.size(); ++i) {
       const Reading& r = readings[static_cast<std::size_t>(i)];
@@ -449,11 +465,9 @@ class Line {
 };
 
 /// The mean reading of every setting.
-std::vector<Reading> means_of_places(const std::vector<Reading>& readings) {
-  std::map<std::size_t, std::vector<Reading>> places;
-  for (const Reading& r : readings) places[r.place].push_back(r);
+std::vector<Reading> means_of_places(const std::vector<Readings>& settings) {
   std::vector<Reading> means;
-  for (const auto& [place, own] : places) {
+  for (const Readings own : settings) {
     Reading sum = own.front();
     sum.sd = 0.0;  // the scatter of the means decides, not the stated errors
     sum.e = sum.velocity = 0.0;
@@ -467,20 +481,18 @@ std::vector<Reading> means_of_places(const std::vector<Reading>& readings) {
 }
 
 /// Do the means of settings scatter more about the line than the readings within a setting explain?
-bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
-  std::map<std::size_t, std::array<double, 4>> sums;  // w, w e, w e^2, count
-  for (const Reading& r : readings) {
-    const double w = line.stated() ? 1.0 / (r.sd * r.sd) : 1.0;
-    auto& own = sums[r.place];
-    own[0] += w;
-    own[1] += w * r.e;
-    own[2] += w * r.e * r.e;
-    own[3] += 1.0;
-  }
+bool places_scatter(const std::vector<Readings>& settings, const Line& line) {
   double within = 0.0, freedom = 0.0;
-  for (const auto& [place, own] : sums) {
-    within += std::max(0.0, own[2] - own[1] * own[1] / own[0]);
-    freedom += own[3] - 1.0;
+  for (const Readings readings : settings) {
+    double sum = 0.0, first = 0.0, second = 0.0;  // of w, w e, w e^2
+    for (const Reading& r : readings) {
+      const double w = line.stated() ? 1.0 / (r.sd * r.sd) : 1.0;
+      sum += w;
+      first += w * r.e;
+      second += w * r.e * r.e;
+    }
+    within += std::max(0.0, second - first * first / sum);
+    freedom += static_cast<double>(readings.size()) - 1.0;
   }
   const double between = line.dof() - freedom;
   if (!(freedom >= 1.0) || !(between >= 1.0)) return false;
@@ -491,10 +503,9 @@ bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
 }
 
 /// The scatter of the points of settings about their means; nullopt without stated errors.
-std::optional<LineScatter> scatter_within(
-    const std::map<std::size_t, std::vector<Reading>>& settings) {
+std::optional<LineScatter> scatter_within(const std::vector<Readings>& settings) {
   double square = 0.0, freedom = 0.0;
-  for (const auto& [place, readings] : settings) {
+  for (const Readings readings : settings) {
     double w = 0.0, sum = 0.0;
     for (const Reading& r : readings) {
       if (!(r.sd > 0.0)) return std::nullopt;
@@ -516,12 +527,12 @@ struct BatchMean {
 };
 
 /// The means of batches of at least two readings each, with their errors.
-std::vector<BatchMean> batch_means(const std::map<std::size_t, std::vector<Reading>>& batches,
+std::vector<BatchMean> batch_means(const std::vector<Readings>& batches,
                                    const std::vector<Group>& groups) {
   double within = 0.0, freedom = 0.0;
   std::vector<BatchMean> means;
   std::vector<double> shared;
-  for (const auto& [number, readings] : batches) {
+  for (const Readings readings : batches) {
     if (readings.size() < 2) continue;
     const auto n = static_cast<double>(readings.size());
     Reading sum = readings.front();
@@ -610,7 +621,7 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
   const std::vector<Group> groups = groups_of(datasets, usual);
   for (const Group& group : groups) {
     place_in_means.push_back(summary.means.size());
-    for (const auto& [key, points] : group.settings) {
+    for (const Readings points : group.settings) {
       for (const Reading& reading : points) {
         readings.push_back(reading);
         readings.back().series = place_in_means.size() - 1;
@@ -639,15 +650,18 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
       std::minmax_element(readings.begin(), readings.end(),
                           [](const Reading& one, const Reading& other) { return one.e < other.e; });
   summary.values = {low->e, high->e};
-  std::map<std::size_t, std::vector<Reading>> of_settings, of_launches;
-  for (const Reading& r : readings) {
-    of_settings[r.place].push_back(r);
-    if (r.launch != none) of_launches[r.launch].push_back(r);
-  }
+  const std::vector<Readings> of_settings =
+      runs_of(readings, [](const Reading& r) { return r.place; });
+  std::vector<Reading> launched;
+  std::ranges::copy_if(readings, std::back_inserter(launched),
+                       [](const Reading& r) { return r.launch != none; });
+  std::ranges::stable_sort(launched, {}, &Reading::launch);
+  const std::vector<Readings> of_launches =
+      runs_of(launched, [](const Reading& r) { return r.launch; });
   summary.outlier = outlying(batch_means(of_settings, groups), series, false);
   if (!summary.outlier) summary.outlier = outlying(batch_means(of_launches, groups), series, true);
-  const bool scattered = of_launches.empty() && places_scatter(readings, Line(readings, series));
-  const std::vector<Reading> used = scattered ? means_of_places(readings) : readings;
+  const bool scattered = of_launches.empty() && places_scatter(of_settings, Line(readings, series));
+  const std::vector<Reading> used = scattered ? means_of_places(of_settings) : readings;
   const Line line(used, series);
   // An error that a setting shares is none of its repeats.
   const bool shared = std::ranges::any_of(

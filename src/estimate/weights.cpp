@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -338,15 +339,12 @@ std::optional<ModelValues> evaluate_model(const ImpactModel& model, std::span<co
 /// Sets (V* / V)^2 of every point at `theta`.
 void set_proximities(const ImpactModel& model, const Observations& data,
                      std::span<const double> theta, Weights& weights) {
-  double capture = 0.0;  // V* of the present dataset and diameter
-  const Observation* before = nullptr;
+  std::map<std::pair<std::size_t, double>, double> captures;  // V* by dataset and diameter
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
-    if (before == nullptr || before->dataset != point.dataset ||
-        before->diameter != point.diameter) {
-      capture = weakly_damped_capture(model, theta, point.dataset, point.diameter);
-    }
-    before = &point;
+    const auto [found, is_new] = captures.try_emplace({point.dataset, point.diameter});
+    double& capture = found->second;
+    if (is_new) capture = weakly_damped_capture(model, theta, point.dataset, point.diameter);
     weights.points[i].proximity = std::min(1.0, std::pow(capture / point.velocity, 2));
   }
 }

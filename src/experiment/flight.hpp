@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
 #include "core/units.hpp"
 
@@ -84,6 +85,8 @@ class AirFlight {
  public:
   /// @pre air.pressure > 0
   AirFlight(const Air& air, double diameter, double sphere_density, double gravity);
+  /// An arbitrary order, for maps.
+  auto operator<=>(const AirFlight&) const = default;
 
   /// The rising or the falling part of a flight.
   struct Part {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -100,12 +101,13 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
   }
   std::vector<std::pair<Quantity, std::string>> numbers;
   for (const ImportQuantity& quantity : known) {
-    const bool beside = quantity.name.ends_with("_sd");  // in the cell of its quantity
-    if (quantity.dimension == Dimension::text || (!table.has(quantity.name) && !beside)) continue;
+    if (quantity.dimension == Dimension::text) continue;
+    if (!table.has(quantity.name) && !table.has_beside(quantity.name)) continue;
     numbers.emplace_back(*value_named<Quantity>(quantity.name), quantity.name);
   }
   ImportedPoints out;
   out.points.reserve(table.size());
+  std::map<std::string, bool> sized_series;
   for (std::size_t r = 0; r < table.size(); ++r) {
     ImportedPoint point;
     point.line = table.line(r);
@@ -116,13 +118,18 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
     const bool rebound = (direct && !table.lacks(r, "restitution")) ||
                          (speed && !table.lacks(r, "rebound_velocity")) ||
                          (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
-    const bool sized = !table.lacks(r, "diameter") || known_diameter(request, point.series, {});
+    bool sized = !table.lacks(r, "diameter");
+    if (!sized) {
+      const auto [own, is_new] = sized_series.try_emplace(point.series);
+      if (is_new) own->second = known_diameter(request, point.series, {}).has_value();
+      sized = own->second;
+    }
     if (table.lacks(r, "incident_velocity") || table.lacks(r, "incidence_angle") || !sized ||
         (!rebound && !(point.value[Quantity::captured].value_or(0.0) > 0.0))) {
       table.leave_out(r);
       continue;
     }
-    out.points.push_back(point);
+    out.points.push_back(std::move(point));
   }
   out.notes = table.notes();
   drop_signs(table, out);
@@ -432,7 +439,8 @@ ImportResult import_points(const ImportRequest& request) {
     system["adhesion_energy"] = 0.0;
     std::vector<ImportNote> again;
     package = imported_package(request, system, points, existing, again);
-    result.dataset = parse_dataset(package, points.csv, request.into);
+    result.dataset.system.adhesion_energy = 0.0;
+    result.dataset.sha256 = checksum_of(package, points.csv);
     result.notes.push_back({ImportRemark::adhesion_left_out});
   }
   if (existing && existing->provenance == Provenance::reconstruction &&

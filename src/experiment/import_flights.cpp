@@ -42,9 +42,9 @@ Drops read_drop(const ImportTable& table, std::size_t r, const StatedError& drop
   drop.rebound_sd = table.value(r, "rebound_height_sd").value_or(rebound_error.of(rebound));
   const double in_vacuum = std::sqrt(rebound / drop.height);
   const auto air = flights.in_air(drop.series, drop.diameter);
-  drop.velocity =
-      air ? air->fall(drop.height).speed : std::sqrt(2.0 * flights.gravity() * drop.height);
-  const double e = air ? air->launch_for_height(rebound) / drop.velocity : in_vacuum;
+  drop.velocity = air ? flights.speed_after_fall(*air, drop.height)
+                      : std::sqrt(2.0 * flights.gravity() * drop.height);
+  const double e = air ? flights.launch_for_height(*air, rebound) / drop.velocity : in_vacuum;
   if (!(rebound > 0.0) || e < captured_below) {
     drop.captured = 1.0;
     return drop;
@@ -362,13 +362,27 @@ bool air_acts(const Air& air) { return air.pressure >= 1e-3; }
 
 std::optional<AirFlight> Flights::in_air(const std::string& series,
                                          const std::optional<double>& diameter_in_file) const {
+  const auto [known, is_new] = known_.try_emplace({series, diameter_in_file});
+  if (!is_new) return known->second;
   const auto diameter = known_diameter(request_, series, diameter_in_file);
   const bool possible = diameter && limits::diameter.contains(*diameter) &&
                         limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
                         limits::pressure.contains(sphere_.air.pressure) &&
                         limits::temperature.contains(sphere_.air.temperature);
-  if (!possible) return std::nullopt;
-  return AirFlight(sphere_.air, *diameter, sphere_.density, gravity());
+  if (possible) known->second.emplace(sphere_.air, *diameter, sphere_.density, gravity());
+  return known->second;
+}
+
+double Flights::speed_after_fall(const AirFlight& air, double height) {
+  const auto [known, is_new] = falls_.try_emplace({air, height});
+  if (is_new) known->second = air.fall(height).speed;
+  return known->second;
+}
+
+double Flights::launch_for_height(const AirFlight& air, double height) {
+  const auto [known, is_new] = launches_.try_emplace({air, height});
+  if (is_new) known->second = air.launch_for_height(height);
+  return known->second;
 }
 
 void Flights::note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,

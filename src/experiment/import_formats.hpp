@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/json.hpp"
 #include "experiment/flight.hpp"
@@ -30,6 +32,9 @@ class Flights {
   /// unknown or impossible (the dataset is then refused later).
   std::optional<AirFlight> in_air(const std::string& series,
                                   const std::optional<double>& diameter_in_file) const;
+  /// `air.fall(height).speed` and `air.launch_for_height(height)`, once for each height.
+  double speed_after_fall(const AirFlight& air, double height);
+  double launch_for_height(const AirFlight& air, double height);
 
   /// Records the effect of air on one point. @param in_vacuum e if air drag is neglected
   /// @throws InputError at the cell of `quantity` if only the drag makes e impossible
@@ -43,6 +48,9 @@ class Flights {
   SphereInAir sphere_;
   bool any_ = false;
   AirShare share_;
+  /// By series and diameter in the file.
+  mutable std::map<std::pair<std::string, std::optional<double>>, std::optional<AirFlight>> known_;
+  std::map<std::pair<AirFlight, double>, double> falls_, launches_;  // by height
 };
 
 /// Reads drop heights h1 and rebound heights h2. In vacuum e = sqrt(h2 / h1), V = sqrt(2 g h1). In

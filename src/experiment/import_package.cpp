@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "core/files.hpp"
 #include "data/material_table.hpp"
@@ -246,12 +247,19 @@ PointsColumn column_of(Quantity quantity, bool millimetres) {
   }
 }
 
-std::string cell_of(const ImportedPoint& point, const PointsColumn& column) {
-  if (column.quantity == Quantity::series) return csv_cell(point.series);
-  if (column.quantity == Quantity::setting) return csv_cell(point.setting);
-  if (column.quantity == Quantity::launch) return csv_cell(point.launch);
-  const auto value = point.value[column.quantity];
-  return value ? fmt::format("{:.12g}", *value / column.factor) : "";
+/// The text of a point; null for a number.
+const std::string* text_of(const ImportedPoint& point, Quantity quantity) {
+  if (quantity == Quantity::series) return &point.series;
+  if (quantity == Quantity::setting) return &point.setting;
+  return quantity == Quantity::launch ? &point.launch : nullptr;
+}
+
+void add_cell(const ImportedPoint& point, const PointsColumn& column, std::string& line) {
+  if (const std::string* const text = text_of(point, column.quantity)) {
+    line += csv_cell(*text);
+  } else if (const auto value = point.value[column.quantity]) {
+    fmt::format_to(std::back_inserter(line), "{:.12g}", *value / column.factor);
+  }
 }
 
 }  // namespace
@@ -284,9 +292,10 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
     return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
   });
   const auto any = [&](Quantity quantity) {
-    const PointsColumn column = column_of(quantity, millimetres);
-    return std::ranges::any_of(
-        points, [&](const ImportedPoint& point) { return !cell_of(point, column).empty(); });
+    return std::ranges::any_of(points, [&](const ImportedPoint& point) {
+      const std::string* const text = text_of(point, quantity);
+      return text != nullptr ? !text->empty() : point.value[quantity].has_value();
+    });
   };
   PointsText text;
   std::vector<PointsColumn> columns;
@@ -303,7 +312,7 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
   for (const ImportedPoint& point : points) {
     for (const PointsColumn& column : columns) {
       if (column.quantity != Quantity::series) text.csv += ',';
-      text.csv += cell_of(point, column);
+      add_cell(point, column, text.csv);
     }
     text.csv += '\n';
   }

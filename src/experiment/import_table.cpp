@@ -55,6 +55,7 @@ bool is_unknown(const std::string& text) {
 
 /// Splits "0.85 ± 0.02" or "0.85 +- 0.02" into value and error, which is empty if there is none.
 std::pair<std::string, std::string> value_and_error(const std::string& text) {
+  if (text.find_first_of("+\xC2") == std::string::npos) return {text, ""};
   for (const std::string_view mark : {"±", "+-", "+/-"}) {
     const std::size_t at = text.find(mark);
     if (at == std::string::npos || at == 0) continue;
@@ -313,16 +314,20 @@ void resolve_diameters(const ImportRequest& request, ImportedPoints& imported) {
   std::vector<std::string> series;
   std::vector<std::string> named;  // series whose names hold their diameters
   std::set<std::string> seen;
-  std::set<std::string> seen_named;
+  std::map<std::string, std::optional<double>> of_series;
   bool used = request.diameters.empty();
   for (ImportedPoint& point : imported.points) {
     if (seen.insert(point.series).second) series.push_back(point.series);
     auto& diameter = point.value[Quantity::diameter];
     if (!diameter) {
       used = true;
-      diameter = known_diameter(request, point.series, {});
-      const bool from_name = diameter && !stated_diameter(request, point.series);
-      if (from_name && seen_named.insert(point.series).second) named.push_back(point.series);
+      const auto [known, is_new] = of_series.try_emplace(point.series);
+      if (is_new) {
+        known->second = known_diameter(request, point.series, {});
+        const bool from_name = known->second && !stated_diameter(request, point.series);
+        if (from_name) named.push_back(point.series);
+      }
+      diameter = known->second;
     }
     if (!diameter) {
       throw InputError({request.file.string(), point.line, 1},
@@ -667,6 +672,18 @@ bool ImportTable::lacks(std::size_t row, const std::string& quantity) const {
   return cell != nullptr && is_unknown(cell->text);
 }
 
+bool ImportTable::has_beside(const std::string& quantity) const {
+  if (!quantity.ends_with("_sd")) return false;
+  return std::ranges::any_of(columns_, [&](const auto& column) {
+    const auto& [other, source] = column;
+    if (error_name(other) != quantity || source.scale.empty()) return false;
+    for (std::size_t row = 0; row < size(); ++row) {
+      if (!value_and_error(cell_of(row, other)->text).second.empty()) return true;
+    }
+    return false;
+  });
+}
+
 bool ImportTable::is_named(const std::string& quantity) const {
   const auto found = columns_.find(quantity);
   return found != columns_.end() && !found->second.at.empty() &&
@@ -695,6 +712,9 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
   if (found == columns_.end()) return error_beside(row, quantity);
   if (found->second.constant) return found->second.constant;
   const CsvField& cell = *cell_of(row, quantity);
+  if (const auto number = parse_number(cell.text, format_)) {
+    return scale_in(row, found->second)(*number);
+  }
   if (is_unknown(cell.text)) return std::nullopt;
   const auto [text, error] = value_and_error(cell.text);
   if (!error.empty()) {

@@ -123,6 +123,8 @@ class ImportTable {
   bool has_replicates() const { return replicates_ > 1; }
   /// True if the quantity has a column and its value in this row is missing.
   bool lacks(std::size_t row, const std::string& quantity) const;
+  /// True if `quantity` is the error of another one, and a cell of that states it: "0.85 ± 0.02".
+  bool has_beside(const std::string& quantity) const;
   /// True if the name of the quantity's column begins with the name of the quantity.
   bool is_named(const std::string& quantity) const;
   /// Records that a row is not used because a cell is empty.

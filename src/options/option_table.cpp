@@ -122,7 +122,9 @@ const std::vector<OptionRow>& option_rows() {
        "table-tennis, tennis, golf or squash, with size and mass of the rules; or a material "
        "(recoil materials), with --diameter"},
       {"bounce", "--mass", number(1e-9, 1e4), "mass of the ball [kg]"},
-      {"import", "--into", path("DIR"), "the dataset's folder; without it, import says what it finds and what it still needs"},
+      {"bounce", "--out", path("FILE"), "draw e against V: .pdf, .svg or .png"},
+      {"import", "--into", path("DIR"),
+       "the dataset's folder; without it, import says what it finds and what it still needs"},
       {"init import bounce", "--sheet", text("NAME"),
        "sheet of a workbook: its name, or its number from 1 on (default: the first that is not "
        "hidden)"},

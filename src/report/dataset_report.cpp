@@ -9,6 +9,7 @@
 #include "data/contact.hpp"
 #include "data/text.hpp"
 #include "document/terminal.hpp"
+#include "estimate/restitution_summary.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
 
@@ -154,6 +155,54 @@ Table series_table(const Dataset& dataset) {
   return table;
 }
 
+plot::Picture restitution_picture(const Dataset& dataset, int width) {
+  constexpr std::size_t most_marks = 2000;
+  const std::size_t stride = dataset.points.size() / most_marks + 1;
+  const std::size_t series = dataset.series.size();
+  std::vector<plot::Points> marks(series);
+  std::vector<std::vector<double>> sd(series);
+  std::vector<double> velocities, values;
+  for (std::size_t i = 0; i < dataset.points.size(); i += stride) {
+    const ImpactPoint& point = dataset.points[i];
+    if (point.all_captured() || point.counts_only) continue;
+    marks[point.series].x.push_back(point.incident_velocity);
+    marks[point.series].y.push_back(point.restitution);
+    sd[point.series].push_back(point.restitution_sd.value_or(0.0));
+    velocities.push_back(point.incident_velocity);
+    for (const double by : {-sd[point.series].back(), sd[point.series].back()}) {
+      values.push_back(point.restitution + by);
+    }
+  }
+  constexpr double margin = 0.06;
+  plot::Plot shown;
+  shown.x = {.label = "incident velocity V", .unit = "m/s"};
+  shown.y = {.label = "restitution e"};
+  shown.x.set_range(plot::range_of(velocities, margin));
+  shown.key = plot::KeyPlace::above;
+  for (const RestitutionMean& mean : summarise_restitution({dataset}).means) {
+    const std::vector<double>& own = marks[mean.series].x;
+    if (!mean.interval || mean.velocity || own.empty()) continue;  // others are of settings
+    const auto [lower, upper] = *mean.interval;
+    const auto [slowest, fastest] = std::ranges::minmax(own);
+    shown.layers.emplace_back(plot::Band{{slowest, fastest},
+                                         {lower, lower},
+                                         {upper, upper},
+                                         {std::string(plot::marker(mean.series).colour), 0.25}});
+    values.insert(values.end(), {lower, upper});
+  }
+  shown.y.set_range(plot::range_of(values, margin));
+  for (std::size_t s = 0; s < series; ++s) {
+    marks[s].marker = plot::marker(s);
+    if (series <= plot::markers.size()) marks[s].name = dataset.series[s];
+    shown.layers.emplace_back(marks[s].with_sd(sd[s]));
+  }
+  return {.name = "bounces",
+          .title = "Restitution against incident velocity, " + dataset.id,
+          .width = width,
+          .height = width * 7 / 10,
+          .plots = {std::move(shown)}};
+}
+
 std::vector<Section> dataset_sections(const Dataset& dataset) {
   std::vector<std::string> warnings;
   for (const DatasetWarning& warning : dataset.warnings) {
@@ -165,8 +214,8 @@ std::vector<Section> dataset_sections(const Dataset& dataset) {
     warnings.insert(warnings.end(), contact.contradictions.begin(), contact.contradictions.end());
   }
   return {
-      shown_section("dataset", "Dataset",
-                    {dataset_table(dataset), Paragraph{provenance_sentence(dataset.provenance)}}),
+      detail_section("dataset", "Dataset",
+                     {dataset_table(dataset), Paragraph{provenance_sentence(dataset.provenance)}}),
       shown_section("series", "Series", {series_table(dataset)}),
       shown_section("warnings", "Warnings", {plain_list(warnings)}),
       detail_section("sources", "Sources", {plain_list(distinct(dataset.sources))})};

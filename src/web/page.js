@@ -186,8 +186,8 @@ async function start() {
   begin();
   if (table.length && $('ball').value) {
     fit = '';
-    const done = await step(['bounce', ...table, ...stated(), ...option('ball')]);
-    if (done) show({ text: done.out });
+    const done = await step(['bounce', ...table, ...stated(), ...option('ball'), '--out', 'pages/figure.svg']);
+    if (done) show({ text: done.out, picture: 'pages/figure.svg' });
     return;
   }
   if (!await imported()) return;

@@ -545,7 +545,8 @@ TEST(Materials, NamesThatMeanTheSame) {
                                    {"Aluminum", "aluminium"},
                                    {"stainless steel", "stainless"},
                                    {"Polystyrene latex", "polystyrene"},
-                                   {"Silicon Carbide", "silicon-carbide"}}) {
+                                   {"Silicon Carbide", "silicon-carbide"},
+                                   {"stone", "granite"}}) {
     EXPECT_EQ(recoil::tabled_material(said, "--particle")["material"], name);
     EXPECT_EQ(recoil::source_of_tabled(said), recoil::source_of_tabled(name));
   }
@@ -563,6 +564,15 @@ TEST(Materials, TungstenCarbideHasTheSpeedsOfSoundOfItsSource) {
   const double transverse = std::sqrt(shear / found->density);
   EXPECT_NEAR(transverse, 4161.2, 5.0);
   EXPECT_NEAR(transverse * std::sqrt((2.0 - 2.0 * nu) / (1.0 - 2.0 * nu)), 6864.0, 10.0);
+}
+
+TEST(Materials, WoodAcrossTheGrainHasTheModuliOfItsSource) {
+  const auto wood = std::ranges::find(recoil::tabled_materials(), std::string_view("wood"),
+                                      &recoil::TabledMaterial::name);
+  ASSERT_TRUE(wood != recoil::tabled_materials().end());
+  // Bending 12.6 GPa of sugar maple, 12.3 GPa of white oak; ratios E_T / E_L and E_R / E_L.
+  EXPECT_NEAR(wood->lowest_modulus / (1.1 * 12.6e9 * 0.065), 1.0, 0.02);
+  EXPECT_NEAR(wood->highest_modulus / (1.1 * 12.3e9 * 0.163), 1.0, 0.02);
 }
 
 TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
@@ -589,6 +599,7 @@ TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
   const auto made = place.run(words);
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("next:\n  recoil fit mine/fit.toml"));
+  EXPECT_LE(std::ranges::count(made.out, '\n'), 25);
   EXPECT_EQ(place.run({"fit", "mine/fit.toml", "--replicates", "0"}).status, 0);
   // A fit file that is there stays.
   place.write("mine/fit.toml", "dataset = \".\"\n# mine\n");
@@ -596,6 +607,36 @@ TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
   EXPECT_EQ(place.run(words).status, 0);
   EXPECT_THAT(place.read("mine/fit.toml"), HasSubstr("# mine"));
   EXPECT_THAT(place.run({"materials"}).out, AllOf(HasSubstr("stainless"), HasSubstr("Callister")));
+}
+
+TEST(Table, ABallWithoutAdhesionIsReportedAsItIsWritten) {
+  const Place place;
+  auto request = place.request("V,e\n1,0.8\n2,0.78\n3,0.77\n", ImportFormat::csv);
+  request.map = {"incident_velocity=V:m/s", "restitution=e"};
+  request.diameters = {"20mm"};
+  request.particle = request.surface = "steel";
+  request.into = place.folder() / "ball";
+  const recoil::Dataset made = recoil::import_points(request).dataset;
+  const recoil::Dataset written = recoil::load_dataset(request.into);
+  EXPECT_EQ(written.system.adhesion_energy, 0.0);  // adhesion is negligible above a millimetre
+  EXPECT_EQ(made.system.adhesion_energy, 0.0);
+  EXPECT_EQ(made.sha256, written.sha256);
+}
+
+TEST(Table, BounceDrawsItsReadings) {
+  const support::Workplace place;
+  place.write("drops.csv", "ball,h\nold,64\nold,66\nold,65\nnew,72\nnew,71\nnew,73\n");
+  std::vector<std::string> words = {
+      "bounce", "drops.csv", "--format", "heights",
+      "--ball", "tennis",    "--map",    "series=ball,drop_height=100cm,rebound_height=h:cm",
+      "--out",  "e.svg"};
+  const auto made = place.run(words);
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string drawn = place.read("e.svg");
+  EXPECT_THAT(drawn, AllOf(HasSubstr("<svg"), HasSubstr("old"), HasSubstr("new")));
+  EXPECT_EQ(drawn.find("nan"), std::string::npos);
+  words.back() = "e.txt";  // states no format
+  EXPECT_EQ(place.run(words).status, 2);
 }
 
 }  // namespace
