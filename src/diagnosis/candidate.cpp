@@ -16,6 +16,8 @@
 namespace recoil {
 namespace {
 
+constexpr double equal_deviances = 1e-6;  // a smaller difference is rounding
+
 /// The options for descents from several starts, of which the best is followed to its minimum. (A
 /// tolerance of the parameters would compare steps of very different units.)
 LeastSquaresOptions descent() {
@@ -30,12 +32,12 @@ LeastSquaresOptions descent() {
   return options;
 }
 
-/// The options from the end of the best descent to its minimum: the chi-squared there is within
-/// 1e-8 of the least, so that nothing shown depends on the start or on the rounding of a sum.
+/// The options from the end of the best descent to its minimum: the parameters there are within
+/// 1e-7 of their errors, so that nothing shown depends on the start or on the rounding of a sum.
 LeastSquaresOptions last_descent() {
   LeastSquaresOptions options = descent();
-  options.function_tolerance = 1e-12;
-  options.close_enough = 1e-4;
+  options.function_tolerance = 1e-15;
+  options.close_enough = 1e-7;
   options.first_radius = 1e4;
   return options;
 }
@@ -48,23 +50,39 @@ LeastSquaresOptions careful_descent() {
   return options;
 }
 
-/// The lowest end of the descents from `starts`, followed to its minimum unless it is `rough`.
+/// Is a deviance lower than `other` by more than rounding?
+bool clearly_lower(double deviance, double other) {
+  return deviance < other - equal_deviances * std::max(1.0, other);
+}
+
+/// The lowest end of the descents from `starts`, followed to its minimum unless it is `rough`. Some
+/// that end close to the lowest are followed, too: their minima may be lower.
 LeastSquaresResult best_descent(const LeastSquaresProblem& problem,
                                 const std::vector<std::vector<double>>& starts, bool rough) {
+  constexpr std::size_t most_followed = 3;
+  constexpr double known_to = 1e-3;  // relative; the deviance at the end of a rough descent
   const bool twice = !rough && starts.size() > 1;
   const LeastSquaresOptions options = rough || twice ? descent() : last_descent();
-  LeastSquaresResult best;
+  std::vector<LeastSquaresResult> runs;
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
     if (!run.ended() && std::isfinite(run.sum_of_squares)) {
       run = minimise(problem, run.theta, careful_descent());
     }
-    if (!run.ended() || !std::isfinite(run.sum_of_squares)) continue;
-    if (!best.ended() || run.sum_of_squares < best.sum_of_squares) best = std::move(run);
+    if (run.ended() && std::isfinite(run.sum_of_squares)) runs.push_back(std::move(run));
   }
-  if (twice && best.ended()) {
-    LeastSquaresResult last = minimise(problem, best.theta, last_descent());
-    if (last.ended() && last.sum_of_squares <= best.sum_of_squares) best = std::move(last);
+  if (runs.empty()) return {};
+  std::ranges::stable_sort(runs, {}, &LeastSquaresResult::sum_of_squares);
+  if (!twice) return std::move(runs.front());
+  const double close = runs.front().sum_of_squares * (1.0 + known_to);
+  LeastSquaresResult best;
+  for (std::size_t k = 0; k < std::min(most_followed, runs.size()); ++k) {
+    if (runs[k].sum_of_squares > close) break;
+    LeastSquaresResult last = minimise(problem, runs[k].theta, last_descent());
+    if (!last.ended() || last.sum_of_squares > runs[k].sum_of_squares) last = std::move(runs[k]);
+    if (!best.ended() || clearly_lower(last.sum_of_squares, best.sum_of_squares)) {
+      best = std::move(last);
+    }
   }
   return best;
 }
@@ -115,6 +133,24 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
     if (best.size() < most) best.push_back(std::move(starts[k]));
   }
   return best;
+}
+
+/// If the added mechanism does not lower the deviance, its parameters may have any of many values.
+/// Then they get those at which it vanishes.
+void take_null_values(const LeastSquaresProblem& problem, const Candidate& candidate,
+                      LeastSquaresResult& best) {
+  LeastSquaresResult without = best;
+  for (std::size_t j = 0; j < without.theta.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (!slot.free || !candidate.adds(slot)) continue;
+    without.theta[j] = std::clamp(slot.parameter->null_value, slot.lower, slot.upper);
+    without.at_bound[j] = true;
+  }
+  if (without.theta == best.theta) return;
+  if (!problem.evaluate(without.theta, without.residuals, without.jacobian)) return;
+  without.sum_of_squares = std::inner_product(without.residuals.begin(), without.residuals.end(),
+                                              without.residuals.begin(), 0.0);
+  if (!clearly_lower(best.sum_of_squares, without.sum_of_squares)) best = std::move(without);
 }
 
 /// Narrows the bounds of a mechanism's parameter to its allowed range plus 20 % of its width on
@@ -311,7 +347,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
-                      std::shared_ptr<const Discrepancy> discrepancy) {
+                      std::shared_ptr<const Discrepancy> discrepancy, bool rough) {
   // Models are compared under the stated errors of the points and of the constants.
   Weights stated = weights;
   stated.noise.constants_weight = 1.0;
@@ -327,10 +363,11 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data, cons
       starts.push_back(std::move(start));
     }
   }
-  LeastSquaresResult best = best_descent(problem, starts, candidate.added.size() > 1);
+  LeastSquaresResult best = best_descent(problem, starts, rough);
   Refit refit;
   refit.discrepancy = std::move(discrepancy);
   if (!best.ended() || !std::isfinite(best.sum_of_squares)) return refit;
+  if (tries > 0 && !rough) take_null_values(problem, candidate, best);
   refit.usable = true;
   refit.theta = std::move(best.theta);
   refit.chi2 = best.sum_of_squares;

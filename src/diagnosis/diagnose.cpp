@@ -145,8 +145,14 @@ bool may_act(const CandidateResult& c) {
   return c.near_plausible && may_be_a_cause(c) && c.delta_aicc < 0.0;
 }
 
+/// Is it a cause that only its impossible size excludes? Limits of what is possible are not known
+/// so well that they alone could decide between causes that fit alike.
+bool only_its_size_is_wrong(const CandidateResult& c) {
+  return c.set_aside == SetAside::not_possible && c.remaining_p >= tolerated_level;
+}
+
 /// The best explanation among `candidates` (sorted, best first) and its rivals, which cannot be
-/// distinguished from it; empty without an explanation.
+/// distinguished from it, those of impossible size included; empty without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
                                                  double margin, bool one_size) {
   const auto best = std::ranges::find_if(candidates, &CandidateResult::explains);
@@ -161,7 +167,9 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
     const bool near = c.near_plausible || (best->only_by_error && !beyond_a_sharp_limit(c));
     const bool possible = near && may_be_a_cause(c) && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
-    if (one_size || pair ? c.explains() : possible) found.push_back(&c);
+    if (one_size || pair ? c.explains() : possible || only_its_size_is_wrong(c)) {
+      found.push_back(&c);
+    }
   }
   return found;
 }

@@ -17,6 +17,8 @@
 namespace recoil {
 namespace {
 
+constexpr double rounding_of_criterion = 1e-6;  // a smaller difference of two is none
+
 /// The fit with an error of settings that excludes smooth trends: the one that the fit estimated
 /// includes the misfit of the base model and would hide it.
 FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& datasets,
@@ -229,7 +231,7 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
   if (candidates.empty()) return;
   const Eigen::VectorXd most = gains_by_chance(base, candidates, residuals).rowwise().maxCoeff();
   for (CandidateResult& c : candidates) {
-    const auto as_much = (most.array() >= -c.delta_aicc).count();
+    const auto as_much = (most.array() >= -c.delta_aicc - rounding_of_criterion).count();
     c.p_value = (1.0 + static_cast<double>(as_much)) / (1.0 + static_cast<double>(most.size()));
   }
 }

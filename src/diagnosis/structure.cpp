@@ -18,6 +18,7 @@ namespace {
 constexpr int highest_degree = 11;  // highest degree of the free form in ln V
 // Smallest part of a function, orthogonal to the model, that is tested.
 constexpr double negligible = 1e-6;
+constexpr double rounding_of_statistic = 1e-9;  // relative; a smaller difference is none
 constexpr double same_diameter = 0.005;  // relative difference of diameters that count as equal
 
 double dot(std::span<const double> a, std::span<const double> b) {
@@ -51,9 +52,10 @@ std::vector<double> onto_unit(const std::vector<double>& values) {
   return unit;
 }
 
-/// The fraction of `sorted` that is at least `value`, counting the data themselves.
+/// The fraction of `sorted` that is at least `value`, up to rounding, counting the data themselves.
 double upper_share(const std::vector<double>& sorted, double value) {
-  const auto below = std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
+  const double least = value - rounding_of_statistic * std::max(1.0, std::abs(value));
+  const auto below = std::lower_bound(sorted.begin(), sorted.end(), least) - sorted.begin();
   const auto n = static_cast<double>(sorted.size());
   return (1.0 + n - static_cast<double>(below)) / (n + 1.0);
 }

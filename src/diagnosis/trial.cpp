@@ -204,10 +204,13 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
   return kept_or_made(base.options.kept.get(), number_of(base.options, kind, k), make, write, read);
 }
 
-/// Sorts by the criterion, best first, and removes candidates that could not be fitted.
+/// Sorts by the criterion, best first, equal ones in the order of the catalogue, and removes
+/// candidates that could not be fitted.
 void sort_by_criterion(std::vector<CandidateResult>& candidates) {
   std::erase_if(candidates, [](const CandidateResult& c) { return !c.refit.usable; });
-  std::ranges::stable_sort(candidates, {}, &CandidateResult::delta_aicc);
+  constexpr double equal = 1e-6;
+  std::ranges::stable_sort(
+      candidates, {}, [](const CandidateResult& c) { return std::round(c.delta_aicc / equal); });
 }
 
 /// Can the mechanism change any residual by `least_effect`, with its parameters at their start or
@@ -304,7 +307,7 @@ void screen(const SearchBase& base, Screening& screening) {
   if (!can_be_seen(base, screening.both)) return;
   for (const CandidateResult* from : {screening.first, screening.second}) {
     Refit refit = refit_candidate(screening.both, data, base.fitted.weights,
-                                  start_from(*from, screening.both), 1);
+                                  start_from(*from, screening.both), 1, nothing_shared(), true);
     if (refit.usable && !(screening.refit.usable && screening.refit.chi2 <= refit.chi2)) {
       screening.refit = std::move(refit);
     }
