@@ -34,12 +34,14 @@ struct Case {
   double slowest;  // [m/s]
   std::vector<std::string> mechanisms;
   bool law_error;
+  double strength = 0.0;  // of the mechanism; 0: its default
 };
 
 TEST(VelocityGrid, GivesTheImpactsThatItStandsFor) {
   for (const Case& at : {Case{"rebounds", 5.0, {}, false}, Case{"captures", 0.3, {}, false},
                          Case{"an error of the laws", 1.0, {}, true},
-                         Case{"a mechanism", 2.0, {"plastic_yield"}, false}}) {
+                         Case{"a mechanism", 2.0, {"plastic_yield"}, false},
+                         Case{"a spread of sizes", 5.0, {"polydispersity"}, false, 0.1}}) {
     SCOPED_TRACE(at.name);
     FitSpec spec = synthetic::spec(true);
     spec.mechanisms = at.mechanisms;
@@ -50,6 +52,7 @@ TEST(VelocityGrid, GivesTheImpactsThatItStandsFor) {
     ImpactModel model = make_model(spec, {synthetic::dataset({})});
     if (at.law_error) model = with_law_error(model, {.size = 0.06, .length = 0.8}, points);
     std::vector<double> theta = model.initial();
+    if (at.strength > 0.0) theta.back() = at.strength;
     if (at.law_error) std::fill(theta.end() - 3, theta.end(), 0.7);
     PointPredictor together(model, points);
     together.evaluate(theta, true);
