@@ -31,7 +31,7 @@ _recoil() {
       bounce) words='--help --diameter --format --ball --mass --out --sheet --map --series --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --ambient-pressure --condition --decimal-comma' ;;
       materials) words='--help --verbose' ;;
       predict) words='--help --sizes --unit --height --midpoints --dataset --out --replicates --seed --threads --json' ;;
-      figure) words='--help --out --width --replicates --seed --threads' ;;
+      figure) words='--help --width --out --replicates --seed --threads' ;;
       export) words='--help --to --diameter --stock --velocity --dataset --parameters --out --replicates --seed --threads' ;;
       compare) words='--help --json' ;;
       report) words='--help --force --out --replicates --seed --threads' ;;

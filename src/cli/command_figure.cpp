@@ -77,6 +77,9 @@ std::string format_of(const fs::path& file) {
 }
 
 void run_figure(const GivenOptions& given) {
+  if (!given.has("--out")) {
+    throw UsageError("it is not known where to write; give --out FILE.pdf, .svg or .png");
+  }
   const fs::path out = given.text("--out");
   require_figure(out);
   const double width = given.number("--width") * 1e3;  // [mm]

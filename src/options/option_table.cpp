@@ -104,7 +104,6 @@ const std::vector<OptionRow>& option_rows() {
       {"export", "--stock", nothing(),
        "lammps, yade: write the nearest of the program's own contact models, for many spheres, "
        "instead of the force law (liggghts: always)"},
-      {"figure", "--out", path("FILE"), "the figure: .pdf, .svg or .png", required},
       {"figure", "--width", quantity(Dimension::length, "mm", 40.0, 400.0),
        "its width: a column of a journal has 80 to 90 mm", "85"},
       {"report", "--force", nothing(), "write every page again, even if nothing has changed"},
@@ -122,7 +121,8 @@ const std::vector<OptionRow>& option_rows() {
        "table-tennis, tennis, golf or squash, with size and mass of the rules; or a material "
        "(recoil materials), with --diameter"},
       {"bounce", "--mass", number(1e-9, 1e4), "mass of the ball [kg]"},
-      {"bounce", "--out", path("FILE"), "draw e against V: .pdf, .svg or .png"},
+      {"bounce figure", "--out", path("FILE"),
+       "draw e against V into this file: .pdf, .svg or .png"},
       {"import", "--into", path("DIR"),
        "the dataset's folder; without it, import says what it finds and what it still needs"},
       {"init import bounce", "--sheet", text("NAME"),
