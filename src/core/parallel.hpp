@@ -74,9 +74,9 @@ auto on_threads(int threads, const Work& work) {
   return arena.execute(work);
 }
 
-/// Runs `main` on this thread and each of `others` on a thread of its own if `threads` is 0 and there
-/// is more than one core; otherwise one after the other. These are threads and not TBB tasks, because a TBB worker that
-/// finished a task beside `main` would not join an arena inside of it.
+/// Runs `main` on this thread and each of `others` on a thread of its own if `threads` is 0 and
+/// there is more than one core; otherwise one after the other. These are threads and not TBB tasks,
+/// because a TBB worker that finished a task beside `main` would not join an arena inside of it.
 /// @throws the exception of `main`, or else the first of `others`, after all have ended
 template <class Work, class... Others>
 void at_once(int threads, const Work& main, const Others&... others) {

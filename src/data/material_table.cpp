@@ -50,13 +50,12 @@ constexpr TabledMaterial materials[] = {
      .what = "of floors and walls",
      .density = 2700.0,
      .lowest_modulus = 30.0 * GPa,
-     .highest_modulus = 60.0 * GPa,
+     .highest_modulus = 70.0 * GPa,
      .poisson_ratio = 0.25,
      .poisson_ratio_sd = 0.05,
-     .source =
-         "National Research Council (1982). Conservation of Historic Stone Buildings and "
-         "Monuments, National Academy Press, p. 64 (Young's modulus); MakeItFrom.com, Granite "
-         "(Poisson's ratio)"},
+     .source = "National Research Council (1982). Conservation of Historic Stone Buildings and "
+               "Monuments, National Academy Press, p. 64 (30 to 60 GPa); MakeItFrom.com, Granite "
+               "(70 GPa, Poisson's ratio)"},
     {.name = "ice",
      .what = "polycrystal at 257 K",
      .density = 920.0,
