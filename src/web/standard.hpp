@@ -113,6 +113,10 @@ constexpr auto adjacent_find(Range&& range, Test test = {}, Projection of = {}) 
     return bool(std::invoke(test, std::invoke(of, a), std::invoke(of, b)));
   });
 }
+template <class Range, class Out, class Test>
+constexpr void copy_if(Range&& range, Out out, Test test) {
+  std::copy_if(std::begin(range), std::end(range), out, test);
+}
 template <class Range, class T>
 constexpr void replace(Range&& range, const T& old, const T& with) {
   std::replace(std::begin(range), std::end(range), old, with);
