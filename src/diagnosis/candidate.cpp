@@ -347,7 +347,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
-                      std::shared_ptr<const Discrepancy> discrepancy, bool rough) {
+                      std::shared_ptr<const Discrepancy> discrepancy) {
   // Models are compared under the stated errors of the points and of the constants.
   Weights stated = weights;
   stated.noise.constants_weight = 1.0;
@@ -363,6 +363,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data, cons
       starts.push_back(std::move(start));
     }
   }
+  const bool rough = candidate.added.size() > 1;
   LeastSquaresResult best = best_descent(problem, starts, rough);
   Refit refit;
   refit.discrepancy = std::move(discrepancy);

@@ -89,17 +89,15 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
 /// catalogue advises; of these starts it follows the `tries` with the smallest deviance and, if
 /// `tries` exceeds one, as many with a tenth of the damping of the base model. With `tries` = 0 it
-/// follows only `near`. If the added mechanisms lower the deviance by less than 1e-6, they get the
-/// values at which they vanish.
+/// follows only `near`. One mechanism is followed to the minimum; if it lowers the deviance by less
+/// than 1e-6, it gets the values at which it vanishes. Of two, hundreds of pairs are fitted and
+/// compared by a margin of 6; their descents end where the criterion is known to 0.1.
 /// @param near theta of the candidate, for example with the base parameters of a fit without the
 ///   mechanisms
 /// @param discrepancy the errors that the residuals share
-/// @param rough end where the criterion is known to 0.1: enough to screen hundreds of pairs, which
-///   are compared by a margin of 6
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
-                      std::shared_ptr<const Discrepancy> discrepancy = nothing_shared(),
-                      bool rough = false);
+                      std::shared_ptr<const Discrepancy> discrepancy = nothing_shared());
 
 /// D + 2 k + 2 k (k + 1) / (n - k - 1), with k the number of free parameters (including the scale
 /// if it is estimated): Hurvich & Tsai (1989), Biometrika 76, 297-307. D is -2 ln likelihood up to

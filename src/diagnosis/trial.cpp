@@ -307,7 +307,7 @@ void screen(const SearchBase& base, Screening& screening) {
   if (!can_be_seen(base, screening.both)) return;
   for (const CandidateResult* from : {screening.first, screening.second}) {
     Refit refit = refit_candidate(screening.both, data, base.fitted.weights,
-                                  start_from(*from, screening.both), 1, nothing_shared(), true);
+                                  start_from(*from, screening.both), 1);
     if (refit.usable && !(screening.refit.usable && screening.refit.chi2 <= refit.chi2)) {
       screening.refit = std::move(refit);
     }
