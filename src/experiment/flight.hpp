@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <compare>
 
 #include "core/units.hpp"
 
@@ -86,7 +86,7 @@ class AirFlight {
   /// @pre air.pressure > 0
   AirFlight(const Air& air, double diameter, double sphere_density, double gravity);
   /// An arbitrary order, for maps.
-  auto operator<=>(const AirFlight&) const = default;
+  bool operator<(const AirFlight& other) const { return constants() < other.constants(); }
 
   /// The rising or the falling part of a flight.
   struct Part {
@@ -115,6 +115,9 @@ class AirFlight {
  private:
   template <class F>
   double launch_for(const F& excess, double least) const;
+  std::array<double, 4> constants() const {
+    return {gravity_, reynolds_per_speed_, stokes_, terminal_};
+  }
 
   double gravity_ = 0.0;
   double reynolds_per_speed_ = 0.0;
