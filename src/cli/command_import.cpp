@@ -224,7 +224,8 @@ overwrites points only with --replace.
 void add_bounce(Program& program) {
   program.command("bounce", "the restitution of a ball from heights, times or a track", R"(
 Prints the mean e with its interval, its dependence on the velocity and the differences between
-series, and writes nothing but the picture that --out names. The ball needs its size and mass for the drag of air, no other constant.
+series, and writes nothing but the picture that --out names. The ball needs its size and mass for
+the drag of air, no other constant.
 Several bounces of one drop are a launch (--map launch=COLUMN); series=COLUMN names what is to be
 compared: balls, floors, temperatures.
 

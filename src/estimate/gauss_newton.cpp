@@ -12,11 +12,12 @@ namespace {
 
 constexpr int most_steps = 30;
 
+constexpr Eigen::Index few_rows = 4096;  // one matrix holds them
+
 /// The number of rows of `n` that `triangular_factor` takes at once for `q` columns: of many, as
 /// many as stay in the cache.
 Eigen::Index rows_at_a_time(Eigen::Index n, Eigen::Index q) {
-  constexpr Eigen::Index some = 2048;
-  return std::max<Eigen::Index>(n <= 2 * some ? some : 256, 16 * q);
+  return std::max<Eigen::Index>(n <= few_rows ? few_rows / 2 : 256, 16 * q);
 }
 
 constexpr double all_digits = 1e-13;  // relative step below which theta does not change
@@ -182,7 +183,7 @@ Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
     rows.col(q) = residuals.segment(first, count);
     return rows;
   };
-  if (n <= 4096) return some(0, n);
+  if (n <= few_rows) return some(0, n);
   return triangular_factor(n, q + 1, some);
 }
 

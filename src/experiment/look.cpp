@@ -91,7 +91,8 @@ ImportFormat format_of(const ImportRequest& asked) {
   if (last->where().line > first->where().line) throw InputError(*last);  // in a row of its format
   throw InputError(
       first->where(), "it is not known what this file holds", first->why(),
-      "state it with --map, as in --map incident_velocity=COLUMN:m/s,restitution=COLUMN");
+      "state it with --map, as in --map incident_velocity=COLUMN:m/s,restitution=COLUMN or --map "
+      "drop_height=COLUMN:cm,rebound_height=COLUMN:cm");
 }
 
 FileLook look_at(const ImportRequest& request) {

@@ -60,6 +60,7 @@ const std::vector<Usefulness>& conditions() {
        {"heights", "intervals", "track", "recording", "rest", "tops", "blocks"}},
       {"import bounce", "--fps", value_of, {"--format"}, {"track"}},
       {"import bounce", "--scale", value_of, {"--format"}, {"track"}},
+      {"import", "--replace", any_of, {"--into"}},
       {"init", "--sheet", any_of, {"--points"}},
       {"init", "--map", any_of, {"--points"}},
       {"init", "--provenance", any_of, {"--points"}},

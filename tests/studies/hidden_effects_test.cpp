@@ -213,14 +213,17 @@ std::vector<Question> impossible_sizes() {
   return all;
 }
 
-/// A plane ten times as far as planes lie takes what a charge takes that air can hold: the charge
-/// may be named, the plane may not.
-TEST(ImpossiblePlane, IsNotNamed) {
+/// A plane ten times as far as planes lie takes what a charge takes that air can hold: neither may
+/// be named, and both are listed.
+TEST(ImpossiblePlane, KeepsAChargeFromBeingNamed) {
   CaseOrder order{"wall", {"probe_plane"}, 0.0, 0};
   order.beyond = 10.0;
   const Answered answer = ask(order, RECOIL_BINARY, {});
   ASSERT_EQ(answer.status, 0) << answer.complaint;
-  EXPECT_EQ(std::count(answer.named.begin(), answer.named.end(), "probe_plane"), 0);
+  EXPECT_TRUE(answer.named.empty()) << answer.named.front();
+  for (const char* cause : {"probe_plane", "electrostatic_image"}) {
+    EXPECT_EQ(std::count(answer.rivals.begin(), answer.rivals.end(), cause), 1) << cause;
+  }
 }
 
 std::vector<Question> outside_the_catalogue() {
