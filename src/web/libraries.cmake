@@ -4,8 +4,8 @@ set(RECOIL_WEB_SOURCES ${CMAKE_BINARY_DIR}/sources CACHE PATH "where apt-get sou
 set(linked ${CMAKE_BINARY_DIR}/include)  # headers of /usr/include that do not belong to the system
 
 file(MAKE_DIRECTORY ${linked})
-foreach(header cvodes fmt gsl md5.h nlohmann nvector pugiconfig.hpp pugixml.hpp Random123 sha1.h sha2.h
-        sndfile.h sundials sunlinsol sunmatrix sunmemory sunnonlinsol toml++ zip.h zipconf.h CLI)
+foreach(header cvodes FLAC fmt gsl md5.h nlohmann nvector ogg opus pugiconfig.hpp pugixml.hpp Random123 sha1.h
+        sha2.h sndfile.h sundials sunlinsol sunmatrix sunmemory sunnonlinsol toml++ vorbis zip.h zipconf.h CLI)
   file(CREATE_LINK /usr/include/${header} ${linked}/${header} SYMBOLIC)
 endforeach()
 include_directories(SYSTEM ${linked})
@@ -163,49 +163,7 @@ target_include_directories(web_zip PRIVATE ${CMAKE_BINARY_DIR}/zip ${web_zip_fol
 target_link_libraries(web_zip PRIVATE web_z)
 add_library(PkgConfig::ZIP ALIAS web_zip)
 
-# Recordings without compression (WAV, AIFF, AU, ...); FLAC and Ogg would need three more libraries.
-web_library(web_sndfile libsndfile-* src/*.c src/ALAC/*.c src/G72x/g7*.c src/GSM610/*.c)
-get_target_property(sources web_sndfile SOURCES)
-list(FILTER sources EXCLUDE REGEX "windows\\.c|g72x_test|/new\\.c|id3_|gsm_test")
-set_target_properties(web_sndfile PROPERTIES SOURCES "${sources}")
-set(config)
-foreach(have BYTESWAP_H ENDIAN_H FSTAT FSYNC FTRUNCATE GETTIMEOFDAY GMTIME GMTIME_R INTTYPES_H LIBM LOCALE_H
-        LOCALTIME LOCALTIME_R LRINT LRINTF LROUND LSEEK MMAP OPEN PIPE READ SNPRINTF SSIZE_T STDBOOL_H
-        STDINT_H STDLIB_H STRINGS_H STRING_H SYS_STAT_H SYS_TIME_H SYS_TYPES_H UNISTD_H VSNPRINTF WRITE)
-  string(APPEND config "#define HAVE_${have} 1\n")
-endforeach()
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/sndfile/config.h @ONLY CONTENT "@config@#define COMPILER_IS_GCC 1
-#define CPU_IS_LITTLE_ENDIAN 1
-#define CPU_IS_BIG_ENDIAN 0
-#define CPU_CLIPS_POSITIVE 0
-#define CPU_CLIPS_NEGATIVE 0
-#define HAVE_EXTERNAL_XIPH_LIBS 0
-#define HAVE_MPEG 0
-#define HAVE_IMMINTRIN_H 0
-#define ENABLE_EXPERIMENTAL_CODE 0
-#define OS_IS_WIN32 0
-#define OS_IS_OPENBSD 0
-#define USE_WINDOWS_API 0
-#define WORDS_BIGENDIAN 0
-#define SIZEOF_DOUBLE 8
-#define SIZEOF_FLOAT 4
-#define SIZEOF_INT 4
-#define SIZEOF_INT64_T 8
-#define SIZEOF_LONG 4
-#define SIZEOF_LONG_LONG 8
-#define SIZEOF_OFF_T 8
-#define SIZEOF_SHORT 2
-#define SIZEOF_SIZE_T 4
-#define SIZEOF_SSIZE_T 4
-#define SIZEOF_VOIDP 4
-#define SIZEOF_WCHAR_T 4
-#define PACKAGE \"libsndfile\"
-#define PACKAGE_NAME \"libsndfile\"
-#define PACKAGE_VERSION \"1.2.0\"
-#define VERSION \"1.2.0\"\n")
-target_include_directories(web_sndfile PRIVATE ${CMAKE_BINARY_DIR}/sndfile ${web_sndfile_folder}/src
-  ${web_sndfile_folder}/include)
-add_library(PkgConfig::SNDFILE ALIAS web_sndfile)
+include(${CMAKE_CURRENT_LIST_DIR}/recordings.cmake)
 
 # One thread: pages opened as a file have no others.
 foreach(header blocked_range enumerable_thread_specific global_control parallel_for task_arena)

@@ -8,11 +8,13 @@ makes a request.
 usage: same_numbers.py [FIT...]      (default: every shipped fit)
 """
 
+import ctypes
 import io
 import itertools
 import json
 import math
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -64,6 +66,21 @@ def sound():
     return file.getvalue()
 
 
+def as_format(wav, major, minor):
+    """A WAV file as libsndfile writes it in another format (SF_FORMAT_...)."""
+    class Info(ctypes.Structure):
+        _fields_ = [("frames", ctypes.c_int64), *((n, ctypes.c_int) for n in ("rate", "channels", "format", "a", "b"))]
+    lib = ctypes.CDLL("libsndfile.so.1")
+    lib.sf_open.restype = ctypes.c_void_p
+    with wave.open(io.BytesIO(wav)) as read, tempfile.NamedTemporaryFile() as file:
+        count = read.getnframes()
+        info = Info(0, read.getframerate(), 1, major | minor, 0, 0)
+        opened = ctypes.c_void_p(lib.sf_open(file.name.encode(), 0x20, ctypes.byref(info)))
+        lib.sf_writef_short(opened, read.readframes(count), ctypes.c_int64(count))
+        lib.sf_close(opened)
+        return pathlib.Path(file.name).read_bytes()
+
+
 def workbook():
     """Drop and rebound heights as an Excel workbook."""
     rows = [("drop_height (cm)", "rebound_height (cm)"), (30, 24), (60, 47), (90, 69)]
@@ -97,6 +114,8 @@ IMPORTS = {
     "blocks": ("n,t\n5,2.1\n5,1.4\n5,0.9\n", ["bounce", "--map", "bounces=n,block_time=t:s", *BALL]),
     "track": (bouncing(), ["bounce", "--map", "time=t:s,height=h:m", *BALL]),
     "recording": (sound(), ["bounce", *BALL]),
+    "recording, FLAC": (as_format(sound(), 0x170000, 0x2), ["bounce", "--format", "recording", *BALL]),
+    "recording, Ogg Vorbis": (as_format(sound(), 0x200000, 0x60), ["bounce", "--format", "recording", *BALL]),
     "workbook": (workbook(), ["bounce", "--format", "heights", *BALL]),
     "webplotdigitizer": ("a,\nX,Y\n2,0.5\n3,0.62\n4,0.7\n6,0.75\n", ["import", "--into", "mine", "--diameter",
                          "4.9um", "--particle", "polystyrene", "--surface", "molybdenum"]),
@@ -115,6 +134,18 @@ def numbers(node, path=""):
         yield path, node
 
 
+def scale_of(path, tree):
+    """What a difference of the number at `path` is compared with: the whole that it is a part of, or itself."""
+    if path.endswith("largest_difference"):
+        return 1.0  # a difference of two e
+    budget = re.match(r"(.*\.budget)\[\d+\]\.(sd|share)$", path)
+    if budget and budget[2] == "share":
+        return 1.0
+    if budget:
+        return math.sqrt(sum(v ** 2 for k, v in tree.items() if k.startswith(budget[1] + "[") and k.endswith(".sd")))
+    return abs(tree[path])
+
+
 def differences(native, tab):
     """(count of numbers, largest relative difference, [(path, native, tab) that differ], are they too different?)."""
     one, other = dict(numbers(native)), dict(numbers(tab))
@@ -125,7 +156,7 @@ def differences(native, tab):
         a, b = one.get(path), other.get(path)
         if isinstance(a, float) and isinstance(b, (int, float)):
             count += 1
-            scale = max(abs(a), abs(b))
+            scale = max(scale_of(path, one), scale_of(path, other))
             by = abs(a - b) / scale if scale > 0 and math.isfinite(scale) else 0.0
             largest = max(largest, by)
             if by > SAME:
