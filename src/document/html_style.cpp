@@ -148,7 +148,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   figcaption { font-size: 8pt; }
   .picture svg { filter: none; }
   .wide { overflow: visible; break-inside: avoid; }
-  .wide:has(table.compact) { break-inside: auto; }
+  .wide:has(tr:nth-child(16)) { break-inside: auto; }
   table { font-size: 8pt; overflow-wrap: anywhere; }
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }
