@@ -94,6 +94,11 @@ INSPECT = r"""
       if (getComputedStyle(element).breakInside !== 'avoid')
         complaints.push('a page may end within ' + element.tagName);
     }
+    for (const table of document.querySelectorAll('.wide > table')) {
+      if (table.rows.length <= 15 && getComputedStyle(table.parentElement).breakInside !== 'avoid') {
+        complaints.push('cuts a table of ' + table.rows.length + ' rows in print');
+      }
+    }
     for (const link of document.querySelectorAll('a[href^="http"], a[href$=".html"]')) {
       if (!getComputedStyle(link, '::after').content.includes(link.getAttribute('href')) &&
           link.getBoundingClientRect().height > 0)
