@@ -162,6 +162,26 @@ void leave_out_explained_counts(const ImpactModel& model, FitResult& result) {
   if (counts > 0) result.unused_counts = {by, counts};
 }
 
+/// "; the best so far: C_H = 0.0039, C_A = 0.028", without those that are held; empty without
+/// finite values.
+std::string best_so_far(const ImpactModel& model, const std::vector<double>& theta) {
+  std::string text;
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    if (!std::isfinite(theta[j])) return "";
+    if (!model.slots[j].free) continue;
+    text += fmt::format("{} {} = {:.4g}", text.empty() ? "; the best so far:" : ",",
+                        model.slots[j].label(), theta[j]);
+  }
+  return text;
+}
+
+/// The end of the start that came down most.
+const StartSummary& lowest(const std::vector<StartSummary>& starts) {
+  return *std::ranges::min_element(starts, {}, [](const StartSummary& start) {
+    return std::isfinite(start.chi2) && !start.end.empty() ? start.chi2 : INFINITY;
+  });
+}
+
 /// `fit` on the threads of the caller's arena.
 FitResult fitted_here(const ImpactModel& model, Observations&& observed,
                       const FitOptions& options) {
@@ -185,8 +205,10 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   result.handovers += search.handovers;
   if (search.leads.empty()) {
     const std::string where = unanswered_point(model, result.data, first);
-    result.failure = where.empty() ? "no start converged: " + result.starts.front().message
-                                   : "no start converged; " + where;
+    const StartSummary& best = lowest(result.starts);
+    result.failure =
+        where.empty() ? "no start converged: " + best.message : "no start converged; " + where;
+    result.failure += best_so_far(model, best.end);
     return result;
   }
   LeastSquaresOptions minimiser = options.minimiser;
@@ -202,7 +224,8 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
         model, result.data, noise, search.leads.front().run.theta, {.minimiser = minimiser});
     result.handovers += reweighted.handovers;
     if (!reweighted.run.ended()) {
-      result.failure = "reweighting did not converge: " + reweighted.run.message;
+      result.failure = "reweighting did not converge: " + reweighted.run.message +
+                       best_so_far(model, reweighted.run.theta);
       return result;
     }
     result.weights_at_rest = reweighted.at_rest;
@@ -223,7 +246,8 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     result.handovers += predictor->handovers();
     if (!best.ended()) {
       result.failure =
-          "no fit to all points converged from the results of the starts on some of them";
+          "no fit to all points converged from the results of the starts on some of them" +
+          best_so_far(model, search.leads.front().run.theta);
       return result;
     }
   }
@@ -235,7 +259,8 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   if (result.noise_verdict == NoiseVerdict::exceeded && model.adjusts_constants() &&
       !keep_errors_of_constants(result, best, options.minimiser)) {
     result.usable = false;
-    result.failure = "the fit with widened errors of the points did not converge: " + best.message;
+    result.failure = "the fit with widened errors of the points did not converge: " + best.message +
+                     best_so_far(model, best.theta);
     return result;
   }
   result.strained_points = count_strained(result.data, result.weights);

@@ -30,6 +30,22 @@ FitResult fit_design(const Design& design, bool f0_free = false, Solver solver =
   return fit(model, gather(datasets), options);
 }
 
+TEST(Fit, ThatEndsWithoutAnAnswerTellsTheBestSoFar) {
+  const Dataset dataset = synthetic::dataset({});
+  FitOptions options = one_start();
+  options.minimiser.max_iterations = 1;
+  const ImpactModel model = make_model(synthetic::spec(), {dataset});
+  options.start = model.initial();
+  options.start[0] *= 30.0;
+  const FitResult fitted = fit(model, gather({dataset}), options);
+  ASSERT_FALSE(fitted.usable);
+  for (const char* name : {"C_H = ", "C_A = "}) {
+    const std::size_t at = fitted.failure.find(name);
+    ASSERT_NE(at, std::string::npos) << fitted.failure;
+    EXPECT_GT(std::stod(fitted.failure.substr(at + 6)), 0.0);
+  }
+}
+
 TEST(Residual, IsGaussianInRestitutionAwayFromCapture) {
   Observation point;
   PointWeights weights;
