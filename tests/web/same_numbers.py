@@ -14,6 +14,7 @@ import itertools
 import json
 import math
 import pathlib
+import random
 import re
 import struct
 import subprocess
@@ -52,9 +53,10 @@ def bouncing():
 
 
 def sound():
-    """The sound of six bounces with e = 0.9, the first after 0.1 s, as a WAV file."""
+    """The sound of six bounces with e = 0.9 in a quiet room, the first after 0.1 s, as a WAV file."""
     rate, at, wait = 16000, 0.1, 0.5
-    samples = [0.0] * (3 * rate)
+    noise = random.Random(1)
+    samples = [noise.gauss(0.0, 0.003) for _ in range(3 * rate)]
     for _ in range(6):
         for k in range(400):
             samples[int(at * rate) + k] += math.exp(-k / 60) * math.sin(0.9 * k)
