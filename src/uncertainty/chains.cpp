@@ -162,7 +162,27 @@ ChainCheck check_chains(const ChainDraws& chains) {
   return check;
 }
 
-LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
+double relative_efficiency(const ChainDraws& chains) {
+  const auto all = static_cast<double>(chains.size() * chains.front().size());
+  return effective_draws(halves(chains)) / all;
+}
+
+double largest_pareto_k(std::size_t draws) {
+  return std::min(1.0 - 1.0 / std::log10(static_cast<double>(draws)), 0.7);
+}
+
+LeftOutPoint leave_out_of_chains(const std::vector<double>& log_likelihood, std::size_t chains) {
+  const double most = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  const std::size_t length = log_likelihood.size() / chains;
+  ChainDraws likelihood(chains);
+  for (std::size_t i = 0; i < chains * length; ++i) {
+    likelihood[i / length].push_back(std::exp(log_likelihood[i] - most));
+  }
+  const double r_eff = relative_efficiency(likelihood);
+  return leave_out(log_likelihood, r_eff > 0.0 ? r_eff : 1.0 / static_cast<double>(length));
+}
+
+LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) {
   const std::size_t draws = log_likelihood.size();
   const double least = *std::min_element(log_likelihood.begin(), log_likelihood.end());
   std::vector<double> log_weight;  // shifted so that the largest is 0
@@ -174,7 +194,7 @@ LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
   });
   const auto count = static_cast<double>(draws);
   const auto largest =
-      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count))));
+      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count / r_eff))));
   const double cutoff = std::exp(log_weight[order[draws - largest - 1]]);
   std::vector<double> above;
   for (std::size_t i = draws - largest; i < draws; ++i) {
@@ -182,6 +202,7 @@ LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
     if (excess > 0.0) above.push_back(excess);
   }
   LeftOutPoint point;
+  point.r_eff = r_eff;
   constexpr std::size_t fewest = 5;
   // Equal weights have no tail.
   if (above.empty() || above.back() <= 1e-12) {
@@ -204,7 +225,14 @@ LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
     sum += std::exp(log_weight[s]);
     predicted += std::exp(log_weight[s] + log_likelihood[s] - least);
   }
-  point.elpd = least + std::log(predicted / sum);
+  const double found = predicted / sum;  // over exp(least)
+  point.elpd = least + std::log(found);
+  double variance = 0.0;
+  for (std::size_t s = 0; s < draws; ++s) {
+    const double part = std::exp(log_weight[s] + log_likelihood[s] - least) / found;
+    variance += std::pow((part - std::exp(log_weight[s])) / sum, 2) / r_eff;
+  }
+  point.mcse = std::sqrt(std::log1p(variance));
   return point;
 }
 

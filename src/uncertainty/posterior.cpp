@@ -423,7 +423,7 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
                 const PosteriorOptions& options, PosteriorResult& result) {
   const std::vector<Observation>& points = alternatives.front().fitted().data.points;
   const bool scaled = sampled.front().chains.front().density->scaled;
-  if (result.left_out.possible()) result.pointwise.resize(points.size());
+  if (options.pointwise && result.left_out.possible()) result.pointwise.resize(points.size());
   for (std::size_t c = 0; c < options.chains; ++c) {
     RandomStream constants(options.seed, RandomPurpose::constants, c);
     RandomStream scales(options.seed, RandomPurpose::posterior, (std::uint64_t{1} << 32) + c);
@@ -436,6 +436,7 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
       const Posterior& density = *sampled[k].chains[c].density;
       const State& state = sampled[k].chains[c].kept[i];
       result.draws.push_back(state.theta);
+      result.alternative.push_back(k);
       draw_constants(alternatives[k].fitted(), moving, constants, result.draws.back());
       const double scale = scaled ? density.draw_scale(state, scales) : 1.0;
       if (scaled) result.scale.push_back(scale);
@@ -451,12 +452,11 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
 
 void leave_one_out(int threads, PosteriorResult& result) {
   LeaveOneOut& out = result.left_out;
-  if (!out.possible()) return;
   out.points.resize(result.pointwise.size());
   std::vector<double> elpd(out.points.size()), in_sample(out.points.size());
   parallel_over(out.points.size(), threads, [&](std::size_t i) {
     const std::vector<double>& ln = result.pointwise[i];
-    out.points[i] = leave_out(ln);
+    out.points[i] = leave_out_of_chains(ln, result.chains);
     elpd[i] = out.points[i].elpd;
     const double most = *std::max_element(ln.begin(), ln.end());
     double sum = 0.0;
@@ -465,6 +465,7 @@ void leave_one_out(int threads, PosteriorResult& result) {
   });
   out.elpd = std::accumulate(elpd.begin(), elpd.end(), 0.0);
   out.p_loo = std::accumulate(in_sample.begin(), in_sample.end(), 0.0) - out.elpd;
+  for (const LeftOutPoint& point : out.points) out.mcse = std::hypot(out.mcse, point.mcse);
   out.se = std::sqrt(static_cast<double>(elpd.size())) * standard_deviation(elpd);
 }
 
@@ -538,7 +539,7 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
   result.left_out.shared_errors = fitted.data.share_errors();
   result.left_out.unscaled = fitted.data.noise.student.has_value();
   keep_draws(alternatives, sampled, moving, options, result);
-  leave_one_out(options.threads, result);
+  if (!result.pointwise.empty()) leave_one_out(options.threads, result);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const bool held = j >= fitted.model.first_constant() && !fitted.constant_effects.empty();
     if (!fitted.model.slots[j].moves() && !held) continue;
