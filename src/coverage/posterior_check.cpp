@@ -21,6 +21,9 @@
 namespace recoil {
 namespace {
 
+/// Draws of the second posterior: their rank then has an error of 0.07 at most.
+constexpr double fewest_effective = 50.0;
+
 /// The measured points and, after them, the repeated ones. No error is shared between the two.
 /// @param scale of the noise: the repeated points state their errors without it
 Observations with_repeated(const Observations& measured, const std::vector<Dataset>& before,
@@ -62,7 +65,7 @@ Observations with_repeated(const Observations& measured, const std::vector<Datas
 class Evenness {
  public:
   double operator()(const std::vector<int>& ranks) {
-    std::vector<unsigned> up_to(compared_draws, 0);  // the number of ranks up to i
+    std::vector<unsigned> up_to(most_rank, 0);  // the number of ranks up to i
     for (const int rank : ranks) {
       for (std::size_t i = static_cast<std::size_t>(rank); i < up_to.size(); ++i) ++up_to[i];
     }
@@ -77,7 +80,7 @@ class Evenness {
 
  private:
   static double tail(std::size_t i, unsigned count, unsigned of) {
-    const double p = static_cast<double>(i + 1) / (compared_draws + 1);
+    const double p = static_cast<double>(i + 1) / (most_rank + 1);
     const double above = count == 0 ? 1.0 : gsl_cdf_binomial_Q(count - 1, p, of);
     return std::min(above, gsl_cdf_binomial_P(count, p, of));
   }
@@ -93,7 +96,7 @@ class EvenRanks {
     std::vector<int> uniform(sets);
     for (std::uint64_t s = 0; s < samples; ++s) {
       RandomStream random(1, RandomPurpose::calibration, s);
-      for (int& rank : uniform) rank = static_cast<int>(random.below(compared_draws + 1));
+      for (int& rank : uniform) rank = static_cast<int>(random.below(most_rank + 1));
       of_uniform_.push_back(evenness_(uniform));
     }
     std::sort(of_uniform_.begin(), of_uniform_.end());
@@ -113,7 +116,7 @@ RankedParameter ranked(const std::string& name, const std::vector<int>& ranks, d
   std::vector<double> scores;
   RankedParameter found{.parameter = name, .p_value = p_value};
   for (const int rank : ranks) {
-    scores.push_back(gsl_cdf_ugaussian_Pinv((rank + 0.5) / (compared_draws + 1)));
+    scores.push_back(gsl_cdf_ugaussian_Pinv((rank + 0.5) / (most_rank + 1)));
     found.held += rank >= 5 && rank < 95 ? 1 : 0;
   }
   const auto n = static_cast<double>(ranks.size());
@@ -173,25 +176,19 @@ PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t ind
       fit(study.fitted->model, with_repeated(study.fitted->data, study.datasets, repeated, scale),
           fitting);
   if (!both.usable) return {};
-  PosteriorOptions sampling;
-  sampling.seed = study.seed + 1 + index;
-  sampling.threads = 1;  // the data sets themselves run in parallel
-  sampling.chains = 2;
-  sampling.length = 500;
-  sampling.most_steps = 16000;
-  sampling.largest_r_hat = 1.05;
-  sampling.least_effective = 150;
-  sampling.pointwise = false;
-  const PosteriorResult found = sample_posterior(noise_alternatives(both), {}, sampling);
-  if (!found.available()) return {};
-  const std::size_t step = found.draws.size() / (compared_draws + 1);
+  const auto found = weigh_posterior(noise_alternatives(both), study.seed, ~index);
+  if (!found || found->effective < fewest_effective ||
+      found->pareto_k > largest_pareto_k(found->draws.size())) {
+    return {};
+  }
   PosteriorTrial trial;
   for (std::size_t j = 0; j < truth.theta.size(); ++j) {
     if (!both.model.slots[j].free) continue;
-    int& rank = trial.ranks.emplace_back(0);
-    for (std::size_t i = 1; i <= compared_draws; ++i) {
-      rank += found.draws[i * step][j] < truth.theta[j] ? 1 : 0;
+    double below = 0.0;
+    for (std::size_t i = 0; i < found->draws.size(); ++i) {
+      if (found->draws[i][j] < truth.theta[j]) below += found->weights[i];
     }
+    trial.ranks.push_back(std::min(most_rank, static_cast<int>(below * (most_rank + 1))));
   }
   return trial;
 }

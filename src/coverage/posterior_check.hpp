@@ -37,9 +37,9 @@ struct PosteriorStudy {
 PosteriorStudy posterior_study(const FitSpec& spec, const std::vector<Dataset>& datasets,
                                const UncertaintyOptions& options);
 
-/// Draws of the second posterior among which the truth has a rank, 0 to 99. Ranks of more would
-/// follow the correlations of the chains.
-inline constexpr int compared_draws = 99;
+/// Ranks are from 0 to this number: the share of the second posterior below the truth, in steps of
+/// 1 %.
+inline constexpr int most_rank = 99;
 
 /// One repeated measurement.
 struct PosteriorTrial {
@@ -48,7 +48,9 @@ struct PosteriorTrial {
 };
 
 /// Repetition number `index`; a pure function of it. The fit to both starts at the estimate and
-/// estimates the noise anew. The error of the laws keeps its size.
+/// estimates the noise anew; the error of the laws keeps its size. The posterior of both is that of
+/// `weigh_posterior`, without ranks if Pareto k or fewer than 50 effective draws make it
+/// unreliable.
 PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t index);
 
 enum class PosteriorVerdict { believed, not_believed, unknown };
@@ -94,7 +96,7 @@ inline constexpr double rejected_posterior = 0.01;
 PosteriorCheck judge_posterior(const PosteriorStudy& study,
                                const std::vector<PosteriorTrial>& trials);
 
-/// The probability, for each list of ranks 0 to `compared_draws`, that as many uniform ranks leave
+/// The probability, for each list of ranks 0 to `most_rank`, that as many uniform ranks leave
 /// their expectation as far anywhere: simultaneous bands (Saeilynoja, Buerkner & Vehtari 2022,
 /// Stat. Comput. 32, 32) by simulation. All lists are equally long.
 std::vector<double> rank_p_values(const std::vector<std::vector<int>>& ranks);

@@ -182,11 +182,10 @@ LeftOutPoint leave_out_of_chains(const std::vector<double>& log_likelihood, std:
   return leave_out(log_likelihood, r_eff > 0.0 ? r_eff : 1.0 / static_cast<double>(length));
 }
 
-LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) {
-  const std::size_t draws = log_likelihood.size();
-  const double least = *std::min_element(log_likelihood.begin(), log_likelihood.end());
-  std::vector<double> log_weight;  // shifted so that the largest is 0
-  for (const double ln : log_likelihood) log_weight.push_back(least - ln);
+SmoothedWeights smoothed_weights(std::vector<double> log_weight, double r_eff) {
+  const std::size_t draws = log_weight.size();
+  const double most = *std::max_element(log_weight.begin(), log_weight.end());
+  for (double& ln : log_weight) ln -= most;
   std::vector<std::size_t> order(draws);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -201,34 +200,36 @@ LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) 
     const double excess = std::exp(log_weight[order[i]]) - cutoff;
     if (excess > 0.0) above.push_back(excess);
   }
-  LeftOutPoint point;
-  point.r_eff = r_eff;
   constexpr std::size_t fewest = 5;
   // Equal weights have no tail.
-  if (above.empty() || above.back() <= 1e-12) {
-    point.pareto_k = -INFINITY;
-  } else if (above.size() < fewest) {
-    point.pareto_k = INFINITY;
-  } else {
-    const Pareto tail = fit_pareto(above);
-    point.pareto_k = tail.k;
-    for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
-      const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
-      const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
-                                ? -tail.scale * std::log1p(-p)
-                                : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
-      log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
-    }
+  if (above.empty() || above.back() <= 1e-12) return {std::move(log_weight), -INFINITY};
+  if (above.size() < fewest) return {std::move(log_weight), INFINITY};
+  const Pareto tail = fit_pareto(above);
+  for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
+    const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
+    const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
+                              ? -tail.scale * std::log1p(-p)
+                              : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
+    log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
   }
+  return {std::move(log_weight), tail.k};
+}
+
+LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) {
+  std::vector<double> inverse;
+  for (const double ln : log_likelihood) inverse.push_back(-ln);
+  const auto [log_weight, pareto_k] = smoothed_weights(std::move(inverse), r_eff);
+  const double least = *std::min_element(log_likelihood.begin(), log_likelihood.end());
+  LeftOutPoint point{.pareto_k = pareto_k, .r_eff = r_eff};
   double sum = 0.0, predicted = 0.0;
-  for (std::size_t s = 0; s < draws; ++s) {
+  for (std::size_t s = 0; s < log_weight.size(); ++s) {
     sum += std::exp(log_weight[s]);
     predicted += std::exp(log_weight[s] + log_likelihood[s] - least);
   }
   const double found = predicted / sum;  // over exp(least)
   point.elpd = least + std::log(found);
   double variance = 0.0;
-  for (std::size_t s = 0; s < draws; ++s) {
+  for (std::size_t s = 0; s < log_weight.size(); ++s) {
     const double part = std::exp(log_weight[s] + log_likelihood[s] - least) / found;
     variance += std::pow((part - std::exp(log_weight[s])) / sum, 2) / r_eff;
   }

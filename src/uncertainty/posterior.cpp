@@ -63,7 +63,7 @@ class PosteriorCoordinates {
   /// Has the slot a prior flat in theta but a logarithmic coordinate, so that the density in z has
   /// a factor theta?
   bool flat_itself(std::size_t j) const {
-    constexpr double clear_of_zero = 2.0;  // standard errors
+    constexpr double clear_of_zero = 1.0;  // standard errors
     return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
            theta_[j] > clear_of_zero * error_[j];
   }
@@ -553,6 +553,46 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
   }
   fill_capture(fitted, capture, options, result);
   return result;
+}
+
+std::optional<WeightedDraws> weigh_posterior(const std::vector<FitAlternative>& alternatives,
+                                             std::uint64_t seed, std::uint64_t stream) {
+  constexpr double wide = 1.15;
+  RandomStream random(seed, RandomPurpose::posterior, stream);
+  WeightedDraws found;
+  found.pareto_k = -INFINITY;
+  for (const FitAlternative& alternative : alternatives) {
+    const FitResult& fitted = alternative.fitted();
+    if (scale_unknown(fitted) && fitted.dof <= 0) return std::nullopt;
+    Posterior density(fitted);
+    const auto [centre, covariance] = density.normal_about_estimate();
+    const Proposals proposals(centre, wide * wide * covariance);
+    if (!proposals.usable()) return std::nullopt;
+    const auto& moving = density.coordinates.moving();
+    const auto count = std::clamp<std::size_t>(150 * moving.size(), 600, 3000);
+    std::vector<double> log_weight;
+    for (std::size_t i = 0; i < count; ++i) {
+      State state;
+      state.z = proposals.independent_proposal(random);
+      density.evaluate(state);
+      if (!std::isfinite(state.log_density)) continue;
+      log_weight.push_back(state.log_density - proposals.log_density(state.z));
+      found.draws.push_back(std::move(state.theta));
+      draw_constants(fitted, moving, random, found.draws.back());
+    }
+    if (log_weight.size() < count / 10) return std::nullopt;
+    const SmoothedWeights smoothed = smoothed_weights(std::move(log_weight));
+    found.pareto_k = std::max(found.pareto_k, smoothed.pareto_k);
+    double sum = 0.0;
+    for (const double ln : smoothed.log_weight) sum += std::exp(ln);
+    for (const double ln : smoothed.log_weight) {
+      found.weights.push_back(alternative.weight * std::exp(ln) / sum);
+    }
+  }
+  double squares = 0.0;
+  for (const double weight : found.weights) squares += weight * weight;
+  found.effective = 1.0 / squares;
+  return found;
 }
 
 }  // namespace recoil

@@ -106,7 +106,7 @@ TEST(PosteriorCheck, IsOpenWithFewSets) {
 
 TEST(PosteriorCheck, PValuesOfUniformRanksAreUniform) {
   std::mt19937 random(1);
-  std::uniform_int_distribution<int> rank(0, compared_draws);
+  std::uniform_int_distribution<int> rank(0, most_rank);
   std::vector<std::vector<int>> all(1000, std::vector<int>(100));
   for (auto& ranks : all) {
     for (int& one : ranks) one = rank(random);
