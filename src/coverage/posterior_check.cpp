@@ -21,8 +21,7 @@
 namespace recoil {
 namespace {
 
-/// Draws of the second posterior: their rank then has an error of 0.07 at most.
-constexpr double fewest_effective = 50.0;
+constexpr int steps_through_truth = 2000;
 
 /// The measured points and, after them, the repeated ones. No error is shared between the two.
 /// @param scale of the noise: the repeated points state their errors without it
@@ -176,19 +175,12 @@ PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t ind
       fit(study.fitted->model, with_repeated(study.fitted->data, study.datasets, repeated, scale),
           fitting);
   if (!both.usable) return {};
-  const auto found = weigh_posterior(noise_alternatives(both), study.seed, ~index);
-  if (!found || found->effective < fewest_effective ||
-      found->pareto_k > largest_pareto_k(found->draws.size())) {
-    return {};
-  }
+  const std::vector<double> shares =
+      shares_below(both, truth.theta, steps_through_truth, study.seed, ~index);
   PosteriorTrial trial;
-  for (std::size_t j = 0; j < truth.theta.size(); ++j) {
+  for (std::size_t j = 0; j < shares.size(); ++j) {
     if (!both.model.slots[j].free) continue;
-    double below = 0.0;
-    for (std::size_t i = 0; i < found->draws.size(); ++i) {
-      if (found->draws[i][j] < truth.theta[j]) below += found->weights[i];
-    }
-    trial.ranks.push_back(std::min(most_rank, static_cast<int>(below * (most_rank + 1))));
+    trial.ranks.push_back(static_cast<int>(shares[j] * (most_rank + 1)));
   }
   return trial;
 }
@@ -225,10 +217,10 @@ PosteriorCheck judge_posterior(const PosteriorStudy& study,
   const bool too_few = check.sets < fewest_sets || check.failed * 10 > check.sets + check.failed;
   if (study.posterior.draws.empty()) {
     check.because = NoVerdict::no_posterior;
-  } else if (check.p_value < rejected_posterior) {
-    check.verdict = PosteriorVerdict::not_believed;
   } else if (too_few) {
     check.because = NoVerdict::few_sets;
+  } else if (check.p_value < rejected_posterior) {
+    check.verdict = PosteriorVerdict::not_believed;
   } else if (judge_model(*study.fitted).verdict == ModelVerdict::does_not_fit) {
     check.because = NoVerdict::model_rejected;
   } else if (!noise_doubts(*study.fitted).empty()) {

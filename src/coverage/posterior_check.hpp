@@ -48,9 +48,9 @@ struct PosteriorTrial {
 };
 
 /// Repetition number `index`; a pure function of it. The fit to both starts at the estimate and
-/// estimates the noise anew; the error of the laws keeps its size. The posterior of both is that of
-/// `weigh_posterior`, without ranks if Pareto k or fewer than 50 effective draws make it
-/// unreliable.
+/// estimates the noise anew; the error of the laws keeps its size, and the variance function is the
+/// one that fits both best. The ranks are the `shares_below` of 2000 steps: uniform also where the
+/// chain moves slowly, but slow chains see less.
 PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t index);
 
 enum class PosteriorVerdict { believed, not_believed, unknown };

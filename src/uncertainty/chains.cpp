@@ -144,6 +144,44 @@ Pareto fit_pareto(std::span<const double> x) {
   return {(n * k + 5.0) / (n + 10.0), -k / best};
 }
 
+struct SmoothedWeights {
+  std::vector<double> log_weight;  // shifted so that the largest raw weight is 0
+  double pareto_k = 0.0;
+};
+
+SmoothedWeights smoothed_weights(std::vector<double> log_weight, double r_eff) {
+  const std::size_t draws = log_weight.size();
+  const double most = *std::max_element(log_weight.begin(), log_weight.end());
+  for (double& ln : log_weight) ln -= most;
+  std::vector<std::size_t> order(draws);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return log_weight[a] != log_weight[b] ? log_weight[a] < log_weight[b] : a < b;
+  });
+  const auto count = static_cast<double>(draws);
+  const auto largest =
+      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count / r_eff))));
+  const double cutoff = std::exp(log_weight[order[draws - largest - 1]]);
+  std::vector<double> above;
+  for (std::size_t i = draws - largest; i < draws; ++i) {
+    const double excess = std::exp(log_weight[order[i]]) - cutoff;
+    if (excess > 0.0) above.push_back(excess);
+  }
+  constexpr std::size_t fewest = 5;
+  // Equal weights have no tail.
+  if (above.empty() || above.back() <= 1e-12) return {std::move(log_weight), -INFINITY};
+  if (above.size() < fewest) return {std::move(log_weight), INFINITY};
+  const Pareto tail = fit_pareto(above);
+  for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
+    const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
+    const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
+                              ? -tail.scale * std::log1p(-p)
+                              : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
+    log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
+  }
+  return {std::move(log_weight), tail.k};
+}
+
 }  // namespace
 
 ChainCheck check_chains(const ChainDraws& chains) {
@@ -180,39 +218,6 @@ LeftOutPoint leave_out_of_chains(const std::vector<double>& log_likelihood, std:
   }
   const double r_eff = relative_efficiency(likelihood);
   return leave_out(log_likelihood, r_eff > 0.0 ? r_eff : 1.0 / static_cast<double>(length));
-}
-
-SmoothedWeights smoothed_weights(std::vector<double> log_weight, double r_eff) {
-  const std::size_t draws = log_weight.size();
-  const double most = *std::max_element(log_weight.begin(), log_weight.end());
-  for (double& ln : log_weight) ln -= most;
-  std::vector<std::size_t> order(draws);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return log_weight[a] != log_weight[b] ? log_weight[a] < log_weight[b] : a < b;
-  });
-  const auto count = static_cast<double>(draws);
-  const auto largest =
-      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count / r_eff))));
-  const double cutoff = std::exp(log_weight[order[draws - largest - 1]]);
-  std::vector<double> above;
-  for (std::size_t i = draws - largest; i < draws; ++i) {
-    const double excess = std::exp(log_weight[order[i]]) - cutoff;
-    if (excess > 0.0) above.push_back(excess);
-  }
-  constexpr std::size_t fewest = 5;
-  // Equal weights have no tail.
-  if (above.empty() || above.back() <= 1e-12) return {std::move(log_weight), -INFINITY};
-  if (above.size() < fewest) return {std::move(log_weight), INFINITY};
-  const Pareto tail = fit_pareto(above);
-  for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
-    const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
-    const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
-                              ? -tail.scale * std::log1p(-p)
-                              : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
-    log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
-  }
-  return {std::move(log_weight), tail.k};
 }
 
 LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) {

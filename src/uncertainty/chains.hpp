@@ -44,21 +44,11 @@ struct LeftOutPoint {
 /// 25, 72).
 double largest_pareto_k(std::size_t draws);
 
-/// Weights of importance sampling, and the shape of their tail.
-struct SmoothedWeights {
-  std::vector<double> log_weight;  ///< shifted so that the largest raw weight is 0
-  double pareto_k = 0.0;           ///< see `largest_pareto_k`
-};
-
-/// Pareto smoothing (the same; Vehtari, Gelman & Gabry 2017, Stat. Comput. 27, 1413-1432): the
-/// M = min(S / 5, 3 sqrt(S / r_eff)) largest of S weights are replaced by quantiles of a
-/// generalised Pareto distribution fitted to them (Zhang & Stephens 2009, Technometrics 51,
-/// 316-325; with a prior for the shape, worth 10 draws, at 1/2).
-/// @param log_weight finite [draws]
-SmoothedWeights smoothed_weights(std::vector<double> log_weight, double r_eff = 1.0);
-
-/// Draw s of the posterior has the smoothed weight w_s ~ 1 / p(point | s). With E = exp(elpd), the
-/// sum of w_s p(point | s), the Monte-Carlo error of E has the square
+/// Pareto-smoothed importance sampling (the same; Vehtari, Gelman & Gabry 2017, Stat. Comput. 27,
+/// 1413-1432): draw s has the weight w_s ~ 1 / p(point | s); the M = min(S / 5, 3 sqrt(S / r_eff))
+/// largest are replaced by quantiles of a generalised Pareto distribution fitted to them (Zhang &
+/// Stephens 2009, Technometrics 51, 316-325; with a prior for the shape, worth 10 draws, at 1/2).
+/// With E = exp(elpd), the sum of w_s p(point | s), the Monte-Carlo error of E has the square
 /// sum w_s^2 (p(point | s) - E)^2 / r_eff, and elpd that of a lognormal E.
 /// @param log_likelihood ln likelihood of the point [draws]
 /// @param r_eff its relative efficiency

@@ -63,7 +63,7 @@ class PosteriorCoordinates {
   /// Has the slot a prior flat in theta but a logarithmic coordinate, so that the density in z has
   /// a factor theta?
   bool flat_itself(std::size_t j) const {
-    constexpr double clear_of_zero = 1.0;  // standard errors
+    constexpr double clear_of_zero = 2.0;  // standard errors
     return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
            theta_[j] > clear_of_zero * error_[j];
   }
@@ -393,27 +393,33 @@ SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
   return sampled;
 }
 
-/// Includes the errors of constants that the fit holds. The draws used the stated constants; this
-/// gives each draw its own constants, and shifts its parameters as the fit would change, to first
-/// order (positive parameters by a factor).
-void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
-                    RandomStream& random, std::vector<double>& draw) {
-  const ImpactModel& model = fitted.model;
-  const std::size_t count = fitted.constant_effects.size();
-  std::vector<double> z(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    z[k] = random.normal();
-    draw[model.first_constant() + k] = model.constants[k].moved(model.constants[k].stated, z[k]);
-  }
-  for (std::size_t j = 0; count > 0 && j < moving.size(); ++j) {
-    const ParameterSlot& slot = model.slots[moving[j]];
-    const double estimate = fitted.theta[moving[j]];
+/// Shifts the parameters of a draw as the fit would change if its held constants were off by z, to
+/// first order (positive parameters by a factor).
+/// @param sign -1: back
+void shift_by_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
+                        const std::vector<double>& z, double sign, std::vector<double>& draw) {
+  for (const std::size_t j : moving) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    const double estimate = fitted.theta[j];
     double by = 0.0;
-    for (std::size_t k = 0; k < count; ++k) by += z[k] * fitted.constant_effects[k][moving[j]];
-    double& value = draw[moving[j]];
+    for (std::size_t k = 0; k < z.size(); ++k) by += sign * z[k] * fitted.constant_effects[k][j];
+    double& value = draw[j];
     value = slot.lower >= 0.0 && estimate > 0.0 ? value * std::exp(by / estimate) : value + by;
     value = std::clamp(value, slot.lower, slot.upper);
   }
+}
+
+/// Includes the errors of constants that the fit holds. The draws used the stated constants; this
+/// gives each draw its own constants.
+void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
+                    RandomStream& random, std::vector<double>& draw) {
+  const ImpactModel& model = fitted.model;
+  std::vector<double> z(fitted.constant_effects.size());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    z[k] = random.normal();
+    draw[model.first_constant() + k] = model.constants[k].moved(model.constants[k].stated, z[k]);
+  }
+  if (!z.empty()) shift_by_constants(fitted, moving, z, 1.0, draw);
 }
 
 /// Selects joint draws from the variance functions in proportion to their weights: the fractional
@@ -555,44 +561,47 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
   return result;
 }
 
-std::optional<WeightedDraws> weigh_posterior(const std::vector<FitAlternative>& alternatives,
-                                             std::uint64_t seed, std::uint64_t stream) {
-  constexpr double wide = 1.15;
-  RandomStream random(seed, RandomPurpose::posterior, stream);
-  WeightedDraws found;
-  found.pareto_k = -INFINITY;
-  for (const FitAlternative& alternative : alternatives) {
-    const FitResult& fitted = alternative.fitted();
-    if (scale_unknown(fitted) && fitted.dof <= 0) return std::nullopt;
-    Posterior density(fitted);
-    const auto [centre, covariance] = density.normal_about_estimate();
-    const Proposals proposals(centre, wide * wide * covariance);
-    if (!proposals.usable()) return std::nullopt;
-    const auto& moving = density.coordinates.moving();
-    const auto count = std::clamp<std::size_t>(150 * moving.size(), 600, 3000);
-    std::vector<double> log_weight;
-    for (std::size_t i = 0; i < count; ++i) {
-      State state;
-      state.z = proposals.independent_proposal(random);
-      density.evaluate(state);
-      if (!std::isfinite(state.log_density)) continue;
-      log_weight.push_back(state.log_density - proposals.log_density(state.z));
-      found.draws.push_back(std::move(state.theta));
-      draw_constants(fitted, moving, random, found.draws.back());
-    }
-    if (log_weight.size() < count / 10) return std::nullopt;
-    const SmoothedWeights smoothed = smoothed_weights(std::move(log_weight));
-    found.pareto_k = std::max(found.pareto_k, smoothed.pareto_k);
-    double sum = 0.0;
-    for (const double ln : smoothed.log_weight) sum += std::exp(ln);
-    for (const double ln : smoothed.log_weight) {
-      found.weights.push_back(alternative.weight * std::exp(ln) / sum);
+std::vector<double> shares_below(const FitResult& fitted, std::vector<double> theta, int steps,
+                                 std::uint64_t seed, std::uint64_t stream) {
+  if (scale_unknown(fitted) && fitted.dof <= 0) return {};
+  Chain chain = {std::make_unique<Posterior>(fitted),
+                 RandomStream(seed, RandomPurpose::posterior, stream),
+                 {},
+                 {}};
+  RandomStream& random = chain.random;
+  const PosteriorCoordinates& coordinates = chain.density->coordinates;
+  const auto [centre, covariance] = chain.density->normal_about_estimate();
+  const Proposals proposals(centre, covariance);
+  if (!proposals.usable()) return {};
+  const std::vector<double> own = theta;
+  if (!fitted.constant_effects.empty()) {
+    const auto z = constant_deviations(fitted.model, fitted.data, theta);
+    shift_by_constants(fitted, coordinates.moving(), z, -1.0, theta);
+  }
+  State first;
+  for (const std::size_t j : coordinates.moving()) {
+    first.z.push_back(coordinates.to_z(j, theta[j]));
+  }
+  chain.density->evaluate(first);
+  if (!std::isfinite(first.log_density)) return {};
+  std::vector<double> below(own.size(), 0.0), equal(own.size(), 1.0);
+  const auto before = static_cast<int>(random.below(static_cast<std::uint64_t>(steps) + 1));
+  for (const int leg : {before, steps - before}) {
+    chain.at = first;
+    for (int k = 0; k < leg; ++k) {
+      chain.step(proposals);
+      std::vector<double> draw = chain.at.theta;
+      draw_constants(fitted, coordinates.moving(), random, draw);
+      for (std::size_t j = 0; j < own.size(); ++j) {
+        below[j] += draw[j] < own[j] ? 1.0 : 0.0;
+        equal[j] += draw[j] == own[j] ? 1.0 : 0.0;
+      }
     }
   }
-  double squares = 0.0;
-  for (const double weight : found.weights) squares += weight * weight;
-  found.effective = 1.0 / squares;
-  return found;
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    below[j] = (below[j] + random.uniform() * equal[j]) / (steps + 1.0);
+  }
+  return below;
 }
 
 }  // namespace recoil

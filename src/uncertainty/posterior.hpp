@@ -85,21 +85,13 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
                                  const std::vector<CaptureEstimate>& capture,
                                  const PosteriorOptions& options);
 
-/// Draws of the posterior with weights.
-struct WeightedDraws {
-  std::vector<std::vector<double>> draws;  ///< [draws][slots]
-  std::vector<double> weights;             ///< [draws]; their sum is 1
-  double pareto_k = 0.0;                   ///< the largest of the alternatives
-  double effective = 0.0;                  ///< 1 / sum of the squared weights
-};
-
-/// The same posterior by importance sampling with smoothed weights (`smoothed_weights`), in far
-/// fewer steps than chains need: the draws are from Student's t of 8 degrees of freedom about the
-/// estimate, 1.15 times as wide as the Gauss-Newton covariance, 150 for each coordinate (600 to
-/// 3000).
+/// The share of a path of the sampler that lies below `theta` [slots]. The path goes through theta,
+/// at a place drawn from all of its `steps` + 1, and its proposals do not adapt. If theta is itself
+/// a draw of the posterior, the shares are uniform on [0, 1], however slowly the path moves (Gandy
+/// & Scott 2020, arXiv 2001.06465); equal values are ordered at random.
 /// @param stream number of the stream of random numbers
-/// @return nullopt if no density is finite, or with too few points to know the noise
-std::optional<WeightedDraws> weigh_posterior(const std::vector<FitAlternative>& alternatives,
-                                             std::uint64_t seed, std::uint64_t stream);
+/// @return empty if the posterior is not known, or its density at theta is 0
+std::vector<double> shares_below(const FitResult& fitted, std::vector<double> theta, int steps,
+                                 std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace recoil
