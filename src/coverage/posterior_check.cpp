@@ -21,8 +21,6 @@
 namespace recoil {
 namespace {
 
-constexpr int steps_through_truth = 2000;
-
 /// The measured points and, after them, the repeated ones. No error is shared between the two.
 /// @param scale of the noise: the repeated points state their errors without it
 Observations with_repeated(const Observations& measured, const std::vector<Dataset>& before,
@@ -176,7 +174,7 @@ PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t ind
           fitting);
   if (!both.usable) return {};
   const std::vector<double> shares =
-      shares_below(both, truth.theta, steps_through_truth, study.seed, ~index);
+      shares_below(both, truth.theta, study.steps, study.seed, ~index);
   PosteriorTrial trial;
   for (std::size_t j = 0; j < shares.size(); ++j) {
     if (!both.model.slots[j].free) continue;

@@ -27,6 +27,7 @@ struct PosteriorStudy {
   std::vector<Dataset> datasets;
   PosteriorResult posterior;
   std::uint64_t seed = 0;
+  int steps = 2000;  ///< of the path through the truth
   /// The repeated measurement number `index` at the parameters and with the noise of `truth`;
   /// `simulate_at` of coverage_truth.hpp. Thread-safe.
   std::function<std::vector<Dataset>(const FitResult& truth, std::uint64_t index)> simulate;
@@ -49,7 +50,7 @@ struct PosteriorTrial {
 
 /// Repetition number `index`; a pure function of it. The fit to both starts at the estimate and
 /// estimates the noise anew; the error of the laws keeps its size, and the variance function is the
-/// one that fits both best. The ranks are the `shares_below` of 2000 steps: uniform also where the
+/// one that fits both best. The ranks are the `shares_below` of `steps`: uniform also where the
 /// chain moves slowly, but slow chains see less.
 PosteriorTrial repeat_measurement(const PosteriorStudy& study, std::uint64_t index);
 
