@@ -25,7 +25,7 @@ _recoil() {
       simulate) words='--help --velocity --diameter --history --dataset --parameters --json' ;;
       fit) words='--help --out --shard --replicates --scheme --seed --threads --solver --json --verbose' ;;
       diagnose) words='--help --causes --rates --out --shard --seed --threads --json --verbose' ;;
-      coverage) words='--help --datasets --out --shard --replicates --seed --threads --json' ;;
+      coverage) words='--help --datasets --posterior --out --shard --replicates --seed --threads --json' ;;
       init) words='--help --points --provenance --diameter --sheet --map --particle --surface --like' ;;
       import) words='--help --format --into --sheet --map --sd-of --diameter --diameter-error --series --particle --surface --like --adhesion-energy --provenance --source --axis --reading-error --error-series --scatter --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --method --ambient-pressure --condition --decimal-comma --replace' ;;
       bounce) words='--help --diameter --format --ball --mass --out --sheet --map --series --captured-below --drop-error --rebound-error --time-error --transpose --average --gravity --fps --scale --ambient-pressure --condition --decimal-comma' ;;

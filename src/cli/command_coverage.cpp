@@ -9,9 +9,12 @@
 #include "core/quoting.hpp"
 #include "core/statistics.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "coverage/posterior_check.hpp"
 #include "document/terminal.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_fit.hpp"
+#include "uncertainty/bootstrap.hpp"
 
 namespace recoil {
 namespace {
@@ -22,7 +25,8 @@ struct Prepared {
   std::vector<Dataset> datasets;
   CoverageOptions coverage;
   CoverageTruth truth;
-  Origin origin;  ///< identifies kept rows and parts
+  std::optional<PosteriorStudy> posterior;  ///< instead of `truth`
+  Origin origin;                            ///< identifies kept rows and parts
 };
 
 /// @returns a pointer, because `truth` may refer to `spec`
@@ -35,10 +39,16 @@ std::unique_ptr<Prepared> prepare(const GivenOptions& given, const ShardOfComman
   coverage.datasets = static_cast<int>(given.whole("--datasets"));
   coverage.uncertainty = uncertainty_options(ready->spec, analysis_options(given));
   require_scheme(ready->spec, coverage.uncertainty.scheme, gather(ready->datasets));
-  ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
-  ready->origin =
-      shard.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
-                   static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
+  std::string digits;
+  if (given.has("--posterior")) {
+    ready->posterior = posterior_study(ready->spec, ready->datasets, coverage.uncertainty);
+    digits = digits_of(*ready->posterior->fitted);
+  } else {
+    ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
+    digits = digits_of(ready->truth);
+  }
+  ready->origin = shard.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
+                               static_cast<std::size_t>(coverage.datasets), digits);
   return ready;
 }
 
@@ -107,12 +117,57 @@ std::string coverage_text(const CoverageResult& result, const FitSpec& spec,
   return wrap(head, terminal_columns, 2) + "\n" + terminal_text(table, 0);
 }
 
+/// The columns of the posterior check, with `row` for each parameter.
+template <class Row>
+std::string posterior_rows(const PosteriorCheck& check, const Row& row) {
+  std::string text;
+  for (const RankedParameter& one : check.parameters) {
+    text += row(
+        one.parameter, fmt::format("{:.3g}", one.p_value),
+        fmt::format("{:.2f} [{:.2f}, {:.2f}]", one.error_ratio, one.ratio_lower, one.ratio_upper),
+        fmt::format("{:+.2f} +/- {:.2f}", one.shift, one.shift_sd),
+        percentage(one.held, check.sets));
+  }
+  return text;
+}
+
+std::string posterior_markdown(const std::string& answer, const PosteriorCheck& check) {
+  return fmt::format(
+             "{}\n\n| parameter | p | too narrow by a factor of | shift [sd] | 90 % intervals that "
+             "contain the truth |\n|---|---|---|---|---|\n",
+             answer) +
+         posterior_rows(check, [](const auto&... cells) {
+           return fmt::format("| {} | {} | {} | {} | {} |\n", cells...);
+         });
+}
+
+std::string posterior_text(const std::string& answer, const PosteriorCheck& check) {
+  const auto line = [](const auto&... cells) {
+    return fmt::format("{:12} {:>8}  {:>18}  {:>14}  {}\n", cells...);
+  };
+  std::string text = wrap(answer, terminal_columns, 2) + "\n";
+  if (check.parameters.empty()) return text;
+  return text + "\n" +
+         line("parameter", "p", "too narrow by", "shift [sd]", "90 % intervals hold") +
+         posterior_rows(check, line);
+}
+
 Pieces pieces_of(const Prepared& ready) {
   return {"coverage", ready.origin.pieces, ready.coverage.uncertainty.threads,
           [&ready](std::size_t i) {
+            if (ready.posterior) return as_json(repeat_measurement(*ready.posterior, i));
             return as_json(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i),
                            NonFinite::word);
           }};
+}
+
+template <class Trial>
+std::vector<Trial> trials_of(const KeptRows& kept, std::size_t count) {
+  std::vector<Trial> trials;
+  for (std::size_t i = 0; i < count; ++i) {
+    trials.push_back(value_from<Trial>(kept.find(i).value_or(Json())));
+  }
+  return trials;
 }
 
 void run_coverage(const GivenOptions& given) {
@@ -137,20 +192,29 @@ void run_coverage(const GivenOptions& given) {
     return;
   }
   resumable(pieces, *kept);
-  const CoverageResult result = counted_rows(*kept, [&] {
-    std::vector<CoverageTrial> trials;
-    for (std::size_t i = 0; i < pieces.count; ++i) {
-      trials.push_back(value_from<CoverageTrial>(kept->find(i).value_or(Json())));
-    }
-    return count_coverage(ready->spec, ready->truth, ready->coverage, trials);
-  });
-  std::string text = coverage_markdown(result, ready->spec, ready->coverage);
+  std::string text, printed;
+  if (ready->posterior) {
+    const PosteriorCheck check = counted_rows(*kept, [&] {
+      return judge_posterior(*ready->posterior, trials_of<PosteriorTrial>(*kept, pieces.count));
+    });
+    const std::string answer = plain_text(posterior_check_words(*ready->posterior, check));
+    text = posterior_markdown(answer, check);
+    printed = given.has("--json")
+                  ? posterior_check_json(*ready->posterior, check, ready->spec, ready->coverage)
+                  : posterior_text(answer, check);
+  } else {
+    const CoverageResult result = counted_rows(*kept, [&] {
+      return count_coverage(ready->spec, ready->truth, ready->coverage,
+                            trials_of<CoverageTrial>(*kept, pieces.count));
+    });
+    text = coverage_markdown(result, ready->spec, ready->coverage);
+    printed = given.has("--json")
+                  ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
+                  : coverage_text(result, ready->spec, ready->coverage);
+  }
   for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
   }
-  const std::string printed =
-      given.has("--json") ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
-                          : coverage_text(result, ready->spec, ready->coverage);
   if (!out.empty()) {
     write_or_print({{out, text}}, printed);
     kept->forget();
@@ -167,6 +231,9 @@ and counts how often the intervals contain the truth. With --out it also writes 
 Markdown, and Ctrl-C keeps finished work: the same command then continues.
 
   recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md
+
+With --posterior it says whether the posterior can be believed for these points: it repeats the
+measurement at draws of the posterior, and ranks them among the draws of the posterior given both.
 
 The study program covers grids of designs and several fits: ./run study, or
 recoil_study --help.)",

@@ -54,6 +54,8 @@ void run_fit(const GivenOptions& given) {
     std::vector<WholeFile> files = {{folder / "fit.json", result}};
     std::string draws = posterior_csv(analysis);
     if (!draws.empty()) files.push_back({folder / "posterior.csv", std::move(draws)});
+    std::string points = log_likelihood_csv(analysis);
+    if (!points.empty()) files.push_back({folder / "log_likelihood.csv", std::move(points)});
     write_or_print(files, printed);
     kept->forget();
   }

@@ -42,10 +42,11 @@ struct CoverageRow {
 
 /// The origin of the true parameters and of the simulated data.
 enum class TruthOrigin {
-  recipe,   ///< the recipe of a reconstruction: its parameters, simulator and noise
-  estimate  ///< the fit's own estimate, simulated independently of the fitter
+  recipe,    ///< the recipe of a reconstruction: its parameters, simulator and noise
+  estimate,  ///< the fit's own estimate, simulated independently of the fitter
+  posterior  ///< draws of the posterior, see PosteriorStudy
 };
-constexpr auto names_of_values(TruthOrigin) { return name_list("recipe", "estimate"); }
+constexpr auto names_of_values(TruthOrigin) { return name_list("recipe", "estimate", "posterior"); }
 
 struct CoverageResult {
   int datasets = 0;

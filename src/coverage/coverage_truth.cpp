@@ -177,6 +177,28 @@ void simulate_point(const DesignPoint& design, double spread, bool other_truth, 
   }
 }
 
+/// The design with the errors, the noise and the counts of simulation number `index`.
+std::vector<Dataset> with_noise(const FitResult& fit, std::vector<Dataset> made,
+                                const std::vector<DesignPoint>& design, const TrueErrors& errors,
+                                bool other_truth, std::uint64_t seed, std::uint64_t index) {
+  RandomStream noise(seed, RandomPurpose::coverage, index);
+  std::size_t i = 0;
+  for (Dataset& dataset : made) {
+    for (ImpactPoint& point : dataset.points) {
+      simulate_point(design[i], fit.weights.noise.event_spread, other_truth,
+                     fit.data.noise.sd_stated, errors.scatter[i], noise, point);
+      if (!point.all_captured() && !point.counts_only) {
+        point.restitution = std::max(0.0, point.restitution + errors.of_restitution[i]);
+        if (fit.weights.noise.pooled_dof > 0 && pools_deviation(fit.data.points[i])) {
+          point.restitution_sd = sample_deviation(design[i].sd, point.events, noise);
+        }
+      }
+      ++i;
+    }
+  }
+  return made;
+}
+
 }  // namespace
 
 TrueImpacts impacts_of(const ImpactModel& model) {
@@ -220,6 +242,16 @@ std::vector<double> with_drawn_constants(const ImpactModel& model, std::vector<d
   return theta;
 }
 
+std::vector<Dataset> simulate_at(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                 const TrueImpacts& impacts, std::span<const double> theta,
+                                 std::uint64_t seed, std::uint64_t index) {
+  RandomStream of_sources(seed, RandomPurpose::settings, index);
+  const TrueErrors errors = draw_errors(fitted, of_sources);
+  RandomStream own(seed, RandomPurpose::coverage, ~index);
+  const auto design = design_points(fitted, datasets, impacts, theta, errors.spheres, own);
+  return with_noise(fitted, datasets, design, errors, true, seed, index);
+}
+
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed, const MakeImpacts& make_impacts) {
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
@@ -238,32 +270,12 @@ CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>
   const auto known = std::make_shared<const std::vector<DesignPoint>>(
       design_points(fitted, datasets, impacts, fitted.theta, fitted.data.conditions(), random));
   truth.simulate = [datasets, seed, known, impacts, fit = fitted](std::uint64_t index) {
-    std::vector<DesignPoint> design = *known;
-    RandomStream of_sources(seed, RandomPurpose::settings, index);
-    const TrueErrors errors = draw_errors(fit, of_sources);
-    const bool other_truth = !fit.model.constants.empty() || !fit.data.sources.empty();
-    if (other_truth) {
+    if (!fit.model.constants.empty() || !fit.data.sources.empty()) {
       const auto theta = with_drawn_constants(fit.model, fit.theta, seed, index);
-      RandomStream own(seed, RandomPurpose::coverage, ~index);
-      design = design_points(fit, datasets, impacts, theta, errors.spheres, own);
+      return simulate_at(fit, datasets, impacts, theta, seed, index);
     }
-    RandomStream noise(seed, RandomPurpose::coverage, index);
-    std::vector<Dataset> made = datasets;
-    std::size_t i = 0;
-    for (Dataset& dataset : made) {
-      for (ImpactPoint& point : dataset.points) {
-        simulate_point(design[i], fit.weights.noise.event_spread, other_truth,
-                       fit.data.noise.sd_stated, errors.scatter[i], noise, point);
-        if (!point.all_captured() && !point.counts_only) {
-          point.restitution = std::max(0.0, point.restitution + errors.of_restitution[i]);
-          if (fit.weights.noise.pooled_dof > 0 && pools_deviation(fit.data.points[i])) {
-            point.restitution_sd = sample_deviation(design[i].sd, point.events, noise);
-          }
-        }
-        ++i;
-      }
-    }
-    return made;
+    RandomStream none(seed, RandomPurpose::settings, index);
+    return with_noise(fit, datasets, *known, draw_errors(fit, none), false, seed, index);
   };
   if (!fitted.model.constants.empty()) {
     truth.at = [datasets, seed, impacts, fit = fitted](std::uint64_t index) {

@@ -37,6 +37,14 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
 CoverageTruth coverage_truth(const FitResult& fitted, const std::vector<Dataset>& datasets,
                              std::uint64_t seed, const MakeImpacts& make_impacts = impacts_of);
 
+/// The datasets of simulation number `index` at theta [slots], with the points of `fitted`, its
+/// noise
+/// (`weights`), and a draw of every source of error.
+/// @throws ComputationError if an impact cannot be solved
+std::vector<Dataset> simulate_at(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                 const TrueImpacts& impacts, std::span<const double> theta,
+                                 std::uint64_t seed, std::uint64_t index);
+
 /// V* [m/s] of every size of every dataset at theta, in the order of UncertaintyResult::capture.
 std::vector<CoverageTruth::Capture> true_captures(const TrueImpacts& impacts,
                                                   std::span<const double> theta,

@@ -87,7 +87,8 @@ std::vector<FitKey> all_keys() {
        "the constants stay where they are stated, and their errors widen every interval; false: "
        "the constants are exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
-       "sample the posterior; this adds its intervals and writes joint draws to posterior.csv"},
+       "sample the posterior; this adds its intervals and writes joint draws to posterior.csv and "
+       "their likelihoods to log_likelihood.csv"},
       {"uncertainty", "own_design", "",
        "measure the coverage of the quoted intervals with simulated data sets of this design "
        "(`own_design.coverage`): true (200 data sets), false, or a number. Default: 200 if that "

@@ -443,8 +443,13 @@ struct FitFile {
       (double, se, "its standard error", "1", R"({"minimum": 0})"),
       (double, p_loo, "effective number of parameters", "1"),
       (Terms, elpd_of_points, "its term of every point, in the order of `residuals`", "1"),
-      (Terms, pareto_k, "Pareto k of every point; above 0.7 its term means nothing; null: all "
-       "draws have equal weight", "1")) };
+      (Terms, pareto_k, "Pareto k of every point; above largest_pareto_k its term means nothing; "
+       "null: all draws have equal weight", "1"),
+      (double, largest_pareto_k, "min(1 - 1/log10(draws), 0.7)", "1"),
+      (double, mcse, "Monte Carlo error of elpd from the number of draws", "1",
+       R"({"minimum": 0})"),
+      (Terms, r_eff, "relative efficiency of the draws for the likelihood of every point: "
+       "effective draws over draws", "1")) };
 
   struct Posterior { RECOIL_RESULT(
       (int, steps, "steps of every chain in the kept round"),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coverage/coverage.hpp"
+#include "coverage/posterior_check.hpp"
 #include "json/fit_file.hpp"
 #include "plan/experiment_plan.hpp"
 #include "predict/polydisperse.hpp"
@@ -46,6 +47,23 @@ struct CoverageFile {
        "sets keep, over the scale of the verdict", "1"),
       (Named<Cell>, intervals, "by kind of interval")) };
 
+  struct Ranked { RECOIL_RESULT(
+      (OrNull<double>, p_value, "probability that uniform ranks are as uneven anywhere", "1"),
+      (OrNull<double>, error_ratio, "standard deviation of the truth about the posterior, over that "
+       "of the posterior; above 1 its intervals are too narrow", "1"),
+      (OrNull<Ends>, error_ratio_limits, "95 % limits of this ratio", "1"),
+      (OrNull<double>, shift, "mean of truth minus posterior, in standard deviations", "1"),
+      (OrNull<double>, shift_sd, "its standard error", "1"),
+      (int, held, "number of central 90 % intervals of the posterior that contain the truth")) };
+
+  struct PosteriorSbc { RECOIL_RESULT(
+      (std::string, text, "the verdict in words"),
+      (PosteriorVerdict, verdict, "can the posterior be believed"),
+      (NoVerdict, because, "why there is no verdict"),
+      (int, sets, "number of data sets with ranks"),
+      (double, p_value, "smallest of the parameters times their number, at most 1", "1"),
+      (Named<Ranked>, parameters, "ranks of every free parameter")) };
+
   RECOIL_RESULT(
     (FormatVersion, format_version, about_format_version),
     (std::string, recoil_version, about_recoil_version),
@@ -56,9 +74,10 @@ struct CoverageFile {
     (double, level, "level of the intervals", "1"),
     (Json, replicates, "bootstrap replicates of every data set", "", number_or_auto),
     (std::uint64_t, seed, "seed of all random numbers"),
-    (int, failed, "number of data sets whose fit failed"),
+    (int, failed, "number of data sets whose fit, or posterior, failed"),
     (int, refits_failed, "number of failed bootstrap refits"),
-    (std::vector<Row>, rows, "every free parameter and capture velocity")) };
+    (std::vector<Row>, rows, "every free parameter and capture velocity; empty with --posterior"),
+    (OrAbsent<PosteriorSbc>, posterior, "with --posterior: posterior SBC")) };
 
 /// `recoil simulate`.
 struct SimulationFile {

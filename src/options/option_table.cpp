@@ -71,6 +71,9 @@ const std::vector<OptionRow>& option_rows() {
       {"simulate", "--history", path("FILE"), "write the forces against time (CSV)"},
       {"coverage", "--datasets", whole(1, 1000000), "simulated data sets", "100", "coverage",
        "datasets"},
+      {"coverage", "--posterior", nothing(),
+       "check the posterior instead (posterior SBC): can it be believed for these points?", "",
+       "coverage", "posterior"},
       {"diagnose", "--causes", nothing(),
        "for balls from 1 mm on without adhesion: search pairs of causes, too (minutes)"},
       {"diagnose", "--rates", whole(1, 1000000),
@@ -245,7 +248,6 @@ const std::vector<OptionRow>& option_rows() {
       {"pair", "--impacts", path("FILE"), "write all impacts and all unpaired passages here (CSV)"},
       {"pair", "--histograms", path("DIR"),
        "write histograms and size distributions (CSV) into this folder"},
-      {"pair", "--out", path("FILE"), "write the points here (CSV)"},
 
       // plans
       {"plan", "--diameter", list(diameter(), "D,D,...", 1, takes::many),
@@ -281,8 +283,8 @@ const std::vector<OptionRow>& option_rows() {
        "folder for the results (default: nothing is written)"},
       {"export cluster", "--out", path("DIR"), "folder for the files", required},
       {"report", "--out", path("DIR"), "folder for the pages", "reports"},
-      {"coverage", "--out", path("FILE"),
-       "also write the table to this file; with --shard: folder for the shards"},
+      {"pair coverage", "--out", path("FILE"),
+       "also write the table to this file; coverage --shard: folder for the shards"},
       {"import pair plan", "--replace", nothing(),
        "replace existing points; import keeps the materials, and a reconstruction becomes "
        "digitised"},

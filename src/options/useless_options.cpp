@@ -64,6 +64,7 @@ const std::vector<Usefulness>& conditions() {
       {"init", "--sheet", any_of, {"--points"}},
       {"init", "--map", any_of, {"--points"}},
       {"init", "--provenance", any_of, {"--points"}},
+      {"coverage", "--replicates", none_of, {"--posterior"}},
       {"fit", "--scheme", another, {"--replicates"}, {"0"}},
       {"export", "--stock", value_of, {"--to"}, {"lammps", "liggghts", "yade"}},
       {"export", "--replicates", value_of, {"--to"}, {"table"}},

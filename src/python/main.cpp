@@ -27,6 +27,7 @@
 #include "core/progress.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "coverage/posterior_check.hpp"
 #include "data/material_table.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "document/html.hpp"
@@ -416,6 +417,13 @@ std::string coverage_of(const FitInputs& inputs, const GivenOptions& given) {
   coverage.datasets = static_cast<int>(given.whole("--datasets"));
   coverage.uncertainty = uncertainty_options(inputs.spec, analysis_options(given));
   require_scheme(inputs.spec, coverage.uncertainty.scheme, gather(inputs.datasets));
+  if (given.has("--posterior")) {
+    const PosteriorStudy study =
+        posterior_study(inputs.spec, inputs.datasets, coverage.uncertainty);
+    return posterior_check_json(
+        study, check_posterior(study, coverage.datasets, coverage.uncertainty.threads), inputs.spec,
+        coverage);
+  }
   const CoverageTruth truth =
       coverage_truth(inputs.spec, inputs.datasets, coverage.uncertainty.seed);
   return coverage_json(measure_coverage(inputs.spec, truth, coverage), inputs.spec, coverage,

@@ -6,6 +6,7 @@
 
 #include "analysis/analysis.hpp"
 #include "coverage/coverage.hpp"
+#include "coverage/posterior_check.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
@@ -62,6 +63,11 @@ std::string fit_json(const Analysis& analysis);
 /// and ln prior. Empty without a posterior.
 std::string posterior_csv(const Analysis& analysis);
 
+/// The content of log_likelihood.csv: ln likelihood of every point under the draws of
+/// posterior.csv, with the columns chain, draw, 1, 2, ... in the order of `residuals`. Empty if
+/// points have no likelihood of their own.
+std::string log_likelihood_csv(const Analysis& analysis);
+
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
 /// The output of `recoil compare --json` for at least two fits. `quantities[].fits[]` is in the
@@ -72,6 +78,10 @@ std::string comparison_json(const std::vector<ComparedFit>& fits);
 /// The output of `recoil coverage --json`.
 std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
                           const CoverageOptions& options, const std::vector<Dataset>& datasets);
+
+/// The output of `recoil coverage --posterior --json`.
+std::string posterior_check_json(const PosteriorStudy& study, const PosteriorCheck& check,
+                                 const FitSpec& spec, const CoverageOptions& options);
 
 /// The output of `recoil simulate --json`.
 /// @param values source of the parameters: "initial values", or the name of a fit.json

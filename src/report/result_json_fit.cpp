@@ -1,4 +1,4 @@
-// Converts an Analysis to fit.json and posterior.csv.
+// Converts an Analysis to fit.json, posterior.csv and log_likelihood.csv.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -462,10 +462,15 @@ std::optional<FitFile::Posterior> posterior_of(const Analysis& a) {
   out.loo.why = no_leave_one_out_words(found);
   if (out.loo.why.empty()) {
     const LeaveOneOut& loo = found.left_out;
-    out.loo.value = {.elpd = loo.elpd, .se = loo.se, .p_loo = loo.p_loo};
+    out.loo.value = {.elpd = loo.elpd,
+                     .se = loo.se,
+                     .p_loo = loo.p_loo,
+                     .largest_pareto_k = largest_pareto_k(found.draws.size()),
+                     .mcse = loo.mcse};
     for (const LeftOutPoint& point : loo.points) {
       out.loo.value->elpd_of_points.push_back(point.elpd);
       out.loo.value->pareto_k.push_back(point.pareto_k);
+      out.loo.value->r_eff.push_back(point.r_eff);
     }
   }
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
@@ -811,6 +816,23 @@ std::string posterior_csv(const Analysis& a) {
     }
     if (!found->scale.empty()) text += fmt::format(",{:.9g}", found->scale[k]);
     text += fmt::format(",{:.9g},{:.9g}\n", found->log_likelihood[k], found->log_prior[k]);
+  }
+  return text;
+}
+
+std::string log_likelihood_csv(const Analysis& a) {
+  const std::optional<PosteriorResult>& found = a.uncertainty.posterior;
+  std::string text;
+  if (!found || found->pointwise.empty()) return text;
+  text += "chain,draw";
+  for (std::size_t i = 0; i < found->pointwise.size(); ++i) text += fmt::format(",{}", i + 1);
+  text += "\n";
+  for (std::size_t k = 0; k < found->draws.size(); ++k) {
+    text += fmt::format("{},{}", k / found->length + 1, k % found->length + 1);
+    for (const std::vector<double>& point : found->pointwise) {
+      text += fmt::format(",{:.8g}", point[k]);
+    }
+    text += "\n";
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include "core/units.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_fit.hpp"
 
 namespace recoil {
 namespace {
@@ -36,6 +37,19 @@ CoverageFile::Row row_of(const CoverageRow& row) {
         share_of<CoverageFile::Share>(cell.held_identifiable, cell.offered_identifiable);
     entry.median_width = cell.median_width;
     out.intervals.emplace_back(cell.interval, entry);
+  }
+  return out;
+}
+
+CoverageFile coverage_file(const FitSpec& spec, const CoverageOptions& options,
+                           const std::vector<Dataset>& datasets) {
+  CoverageFile out = {.recoil_version = version(),
+                      .fit = {.id = spec.id, .sha256 = spec.sha256},
+                      .simulated = options.datasets,
+                      .level = options.uncertainty.level,
+                      .seed = options.uncertainty.seed};
+  for (const Dataset& dataset : datasets) {
+    out.datasets.push_back({dataset.id, dataset.provenance, dataset.sha256});
   }
   return out;
 }
@@ -86,20 +100,36 @@ SimulationFile::WholeImpact whole_of(const ImpactModel& model, const WholeImpact
 std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
                           const CoverageOptions& options, const std::vector<Dataset>& datasets) {
   const UncertaintyOptions& uncertainty = options.uncertainty;
-  CoverageFile out = {
-      .recoil_version = version(),
-      .fit = {.id = spec.id, .sha256 = spec.sha256},
-      .simulated = result.datasets,
-      .truth = result.truth_origin,
-      .level = uncertainty.level,
-      .replicates = uncertainty.replicates_auto ? Json("auto") : Json(uncertainty.replicates),
-      .seed = uncertainty.seed,
-      .failed = result.failed,
-      .refits_failed = result.refits_failed};
-  for (const Dataset& dataset : datasets) {
-    out.datasets.push_back({dataset.id, dataset.provenance, dataset.sha256});
-  }
+  CoverageFile out = coverage_file(spec, options, datasets);
+  out.truth = result.truth_origin;
+  out.replicates = uncertainty.replicates_auto ? Json("auto") : Json(uncertainty.replicates);
+  out.failed = result.failed;
+  out.refits_failed = result.refits_failed;
   for (const CoverageRow& row : result.rows) out.rows.push_back(row_of(row));
+  return text_of(out);
+}
+
+std::string posterior_check_json(const PosteriorStudy& study, const PosteriorCheck& check,
+                                 const FitSpec& spec, const CoverageOptions& options) {
+  CoverageFile out = coverage_file(spec, options, study.datasets);
+  out.truth = TruthOrigin::posterior;
+  out.replicates = Json(0);
+  out.failed = check.failed;
+  CoverageFile::PosteriorSbc found = {.text = plain_text(posterior_check_words(study, check)),
+                                      .verdict = check.verdict,
+                                      .because = check.because,
+                                      .sets = check.sets,
+                                      .p_value = check.p_value};
+  for (const RankedParameter& one : check.parameters) {
+    found.parameters.push_back({one.parameter,
+                                {.p_value = one.p_value,
+                                 .error_ratio = one.error_ratio,
+                                 .error_ratio_limits = Ends{one.ratio_lower, one.ratio_upper},
+                                 .shift = one.shift,
+                                 .shift_sd = one.shift_sd,
+                                 .held = one.held}});
+  }
+  out.posterior.emplace(std::move(found));
   return text_of(out);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "coverage/posterior_check.hpp"
 #include "document/sentence.hpp"
 
 /// Text about a fit. Phrases begin with a small letter and have no full stop; `as_sentence` makes
@@ -89,6 +90,9 @@ Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult&
 /// Warnings about bootstrap replicates and capture velocities.
 std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
                                            const Observations& data);
+
+/// Whether the posterior can be believed, in one sentence.
+Sentence posterior_check_words(const PosteriorStudy& study, const PosteriorCheck& check);
 
 /// Why there is no posterior; empty if there is one.
 std::string no_posterior_words(const PosteriorResult& posterior);

@@ -470,6 +470,69 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
   return {};
 }
 
+Sentence posterior_check_words(const PosteriorStudy& study, const PosteriorCheck& check) {
+  const std::string how =
+      fmt::format("(posterior SBC, {} data sets: p = {:.2g})", check.sets, check.p_value);
+  const auto names = [&](const auto& named) {
+    Sentence words;
+    const std::size_t count = named.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      words += k == 0 ? "" : k + 1 < count ? ", " : " and ";
+      words += named[k];
+    }
+    return words;
+  };
+  std::vector<Sentence> all, wrong;
+  for (const RankedParameter& one : check.parameters) {
+    all.push_back(symbol(one.parameter));
+    if (!(one.p_value * static_cast<double>(check.parameters.size()) < rejected_posterior))
+      continue;
+    const std::string what =
+        one.ratio_lower > 1.0 || one.ratio_upper < 1.0
+            ? fmt::format("its intervals are too {} by a factor of {:.2f}",
+                          one.ratio_lower > 1.0 ? "narrow" : "wide",
+                          std::max(one.error_ratio, 1.0 / one.error_ratio))
+        : std::abs(one.shift) > 2.0 * one.shift_sd
+            ? fmt::format("its values are too {} by {:.2f} standard deviations",
+                          one.shift > 0.0 ? "low" : "high", std::abs(one.shift))
+            : "its shape is wrong";
+    wrong.push_back(symbol(one.parameter) + Sentence(" (" + what + ")"));
+  }
+  const auto open = [&](const std::string& why) {
+    return Sentence("I do not know whether this posterior can be believed: " + why + ".");
+  };
+  switch (check.verdict) {
+    case PosteriorVerdict::believed:
+      return Sentence("This posterior can be believed for ") + names(all) +
+             Sentence(" " + how + ".");
+    case PosteriorVerdict::not_believed:
+      return Sentence("This posterior cannot be believed for ") + names(wrong) +
+             Sentence(" " + how + ".");
+    case PosteriorVerdict::unknown:
+      break;
+  }
+  switch (check.because) {
+    case NoVerdict::no_posterior:
+      return open(study.posterior.available() ? "no parameter moves"
+                                              : no_posterior_words(study.posterior));
+    case NoVerdict::few_sets:
+      return open(
+          fmt::format("{} of {} data sets gave a posterior, and a verdict needs 50 and nine "
+                      "of ten",
+                      check.sets, check.sets + check.failed));
+    case NoVerdict::noise_in_doubt:
+      return open(
+          "the stated errors of the points are in doubt, and simulated points do not have this "
+          "doubt");
+    case NoVerdict::model_rejected:
+      return open("the points reject the model, and simulated points obey it");
+    case NoVerdict::none:
+    case NoVerdict::open_ranks:
+      break;
+  }
+  return open("chance explains the ranks hardly, and more --datasets decide " + how);
+}
+
 std::string no_leave_one_out_words(const PosteriorResult& posterior) {
   if (!posterior.available()) return no_posterior_words(posterior);
   if (posterior.draws.empty()) return "no parameter moves";
@@ -491,18 +554,19 @@ Sentence leave_one_out_words(const Analysis& a) {
       say("Leaving out one point at a time (PSIS-LOO): expected log predictive density {:.1f} "
           "{+/-} {:.1f}, {:.1f} effective parameters. ",
           loo.elpd, loo.se, loo.p_loo);
+  const double limit = largest_pareto_k(found->draws.size());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < loo.points.size(); ++i) {
-    if (!(loo.points[i].pareto_k > largest_pareto_k)) continue;
+    if (!(loo.points[i].pareto_k > limit)) continue;
     const Observation& point = a.fitted.data.points[i];
     names.push_back(fmt::format("line {}{} (k = {:.2f})", point.line,
                                 a.datasets.size() > 1 ? " of " + a.datasets[point.dataset].id : "",
                                 loo.points[i].pareto_k));
   }
-  if (names.empty()) return words + say("No point has a Pareto k above {:g}.", largest_pareto_k);
-  return words + say("For {} this estimate is not reliable (Pareto k above {:g}): the posterior "
+  if (names.empty()) return words + say("No point has a Pareto k above {:.2g}.", limit);
+  return words + say("For {} this estimate is not reliable (Pareto k above {:.2g}): the posterior "
                      "depends strongly on {}.",
-                     fmt::to_string(fmt::join(names, ", ")), largest_pareto_k,
+                     fmt::to_string(fmt::join(names, ", ")), limit,
                      std::string(names.size() == 1 ? "this point" : "each of these points"));
 }
 

@@ -144,6 +144,44 @@ Pareto fit_pareto(std::span<const double> x) {
   return {(n * k + 5.0) / (n + 10.0), -k / best};
 }
 
+struct SmoothedWeights {
+  std::vector<double> log_weight;  // shifted so that the largest raw weight is 0
+  double pareto_k = 0.0;
+};
+
+SmoothedWeights smoothed_weights(std::vector<double> log_weight, double r_eff) {
+  const std::size_t draws = log_weight.size();
+  const double most = *std::max_element(log_weight.begin(), log_weight.end());
+  for (double& ln : log_weight) ln -= most;
+  std::vector<std::size_t> order(draws);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return log_weight[a] != log_weight[b] ? log_weight[a] < log_weight[b] : a < b;
+  });
+  const auto count = static_cast<double>(draws);
+  const auto largest =
+      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count / r_eff))));
+  const double cutoff = std::exp(log_weight[order[draws - largest - 1]]);
+  std::vector<double> above;
+  for (std::size_t i = draws - largest; i < draws; ++i) {
+    const double excess = std::exp(log_weight[order[i]]) - cutoff;
+    if (excess > 0.0) above.push_back(excess);
+  }
+  constexpr std::size_t fewest = 5;
+  // Equal weights have no tail.
+  if (above.empty() || above.back() <= 1e-12) return {std::move(log_weight), -INFINITY};
+  if (above.size() < fewest) return {std::move(log_weight), INFINITY};
+  const Pareto tail = fit_pareto(above);
+  for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
+    const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
+    const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
+                              ? -tail.scale * std::log1p(-p)
+                              : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
+    log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
+  }
+  return {std::move(log_weight), tail.k};
+}
+
 }  // namespace
 
 ChainCheck check_chains(const ChainDraws& chains) {
@@ -162,49 +200,45 @@ ChainCheck check_chains(const ChainDraws& chains) {
   return check;
 }
 
-LeftOutPoint leave_out(const std::vector<double>& log_likelihood) {
-  const std::size_t draws = log_likelihood.size();
+double relative_efficiency(const ChainDraws& chains) {
+  const auto all = static_cast<double>(chains.size() * chains.front().size());
+  return effective_draws(halves(chains)) / all;
+}
+
+double largest_pareto_k(std::size_t draws) {
+  return std::min(1.0 - 1.0 / std::log10(static_cast<double>(draws)), 0.7);
+}
+
+LeftOutPoint leave_out_of_chains(const std::vector<double>& log_likelihood, std::size_t chains) {
+  const double most = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  const std::size_t length = log_likelihood.size() / chains;
+  ChainDraws likelihood(chains);
+  for (std::size_t i = 0; i < chains * length; ++i) {
+    likelihood[i / length].push_back(std::exp(log_likelihood[i] - most));
+  }
+  const double r_eff = relative_efficiency(likelihood);
+  return leave_out(log_likelihood, r_eff > 0.0 ? r_eff : 1.0 / static_cast<double>(length));
+}
+
+LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff) {
+  std::vector<double> inverse;
+  for (const double ln : log_likelihood) inverse.push_back(-ln);
+  const auto [log_weight, pareto_k] = smoothed_weights(std::move(inverse), r_eff);
   const double least = *std::min_element(log_likelihood.begin(), log_likelihood.end());
-  std::vector<double> log_weight;  // shifted so that the largest is 0
-  for (const double ln : log_likelihood) log_weight.push_back(least - ln);
-  std::vector<std::size_t> order(draws);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return log_weight[a] != log_weight[b] ? log_weight[a] < log_weight[b] : a < b;
-  });
-  const auto count = static_cast<double>(draws);
-  const auto largest =
-      static_cast<std::size_t>(std::ceil(std::min(0.2 * count, 3.0 * std::sqrt(count))));
-  const double cutoff = std::exp(log_weight[order[draws - largest - 1]]);
-  std::vector<double> above;
-  for (std::size_t i = draws - largest; i < draws; ++i) {
-    const double excess = std::exp(log_weight[order[i]]) - cutoff;
-    if (excess > 0.0) above.push_back(excess);
-  }
-  LeftOutPoint point;
-  constexpr std::size_t fewest = 5;
-  // Equal weights have no tail.
-  if (above.empty() || above.back() <= 1e-12) {
-    point.pareto_k = -INFINITY;
-  } else if (above.size() < fewest) {
-    point.pareto_k = INFINITY;
-  } else {
-    const Pareto tail = fit_pareto(above);
-    point.pareto_k = tail.k;
-    for (std::size_t j = 0; std::isfinite(tail.k) && j < above.size(); ++j) {
-      const double p = (static_cast<double>(j) + 0.5) / static_cast<double>(above.size());
-      const double excess = std::abs(tail.k) < std::numeric_limits<double>::epsilon()
-                                ? -tail.scale * std::log1p(-p)
-                                : tail.scale * std::expm1(-tail.k * std::log1p(-p)) / tail.k;
-      log_weight[order[draws - above.size() + j]] = std::min(0.0, std::log(excess + cutoff));
-    }
-  }
+  LeftOutPoint point{.pareto_k = pareto_k, .r_eff = r_eff};
   double sum = 0.0, predicted = 0.0;
-  for (std::size_t s = 0; s < draws; ++s) {
+  for (std::size_t s = 0; s < log_weight.size(); ++s) {
     sum += std::exp(log_weight[s]);
     predicted += std::exp(log_weight[s] + log_likelihood[s] - least);
   }
-  point.elpd = least + std::log(predicted / sum);
+  const double found = predicted / sum;  // over exp(least)
+  point.elpd = least + std::log(found);
+  double variance = 0.0;
+  for (std::size_t s = 0; s < log_weight.size(); ++s) {
+    const double part = std::exp(log_weight[s] + log_likelihood[s] - least) / found;
+    variance += std::pow((part - std::exp(log_weight[s])) / sum, 2) / r_eff;
+  }
+  point.mcse = std::sqrt(std::log1p(variance));
   return point;
 }
 

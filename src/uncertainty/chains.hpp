@@ -27,17 +27,35 @@ struct ChainCheck {
 /// @param chains with at least 4 draws each
 ChainCheck check_chains(const ChainDraws& chains);
 
+/// The effective number of draws of a mean, without ranks, over the number of draws [1]. 1 for
+/// independent draws, less if neighbours are alike.
+double relative_efficiency(const ChainDraws& chains);
+
 /// Leave-one-out prediction of one point by importance sampling.
 struct LeftOutPoint {
   double elpd = 0.0;      ///< ln p(point | all other points)
-  double pareto_k = 0.0;  ///< shape of the tail of the weights; above 0.7 `elpd` is unreliable
+  double pareto_k = 0.0;  ///< shape of the tail of the weights; see `largest_pareto_k`
+  double r_eff = 1.0;     ///< `relative_efficiency` of the likelihood of the point
+  double mcse = 0.0;      ///< Monte-Carlo error of elpd
 };
 
-/// Pareto-smoothed importance sampling (Vehtari, Gelman & Gabry 2017, Stat. Comput. 27, 1413-1432):
-/// draw s has the weight 1 / p(point | s); the M = min(S / 5, 3 sqrt(S)) largest are replaced by
-/// quantiles of a generalised Pareto distribution fitted to them (Zhang & Stephens 2009,
-/// Technometrics 51, 316-325; with a prior for the shape, worth 10 draws, at 1/2).
+/// Above this shape the smoothed weights of `draws` draws are not reliable:
+/// min(1 - 1 / log10(draws), 0.7) (Vehtari, Simpson, Gelman, Yao & Gabry 2024, J. Mach. Learn. Res.
+/// 25, 72).
+double largest_pareto_k(std::size_t draws);
+
+/// Pareto-smoothed importance sampling (the same; Vehtari, Gelman & Gabry 2017, Stat. Comput. 27,
+/// 1413-1432): draw s has the weight w_s ~ 1 / p(point | s); the M = min(S / 5, 3 sqrt(S / r_eff))
+/// largest are replaced by quantiles of a generalised Pareto distribution fitted to them (Zhang &
+/// Stephens 2009, Technometrics 51, 316-325; with a prior for the shape, worth 10 draws, at 1/2).
+/// With E = exp(elpd), the sum of w_s p(point | s), the Monte-Carlo error of E has the square
+/// sum w_s^2 (p(point | s) - E)^2 / r_eff, and elpd that of a lognormal E.
 /// @param log_likelihood ln likelihood of the point [draws]
-LeftOutPoint leave_out(const std::vector<double>& log_likelihood);
+/// @param r_eff its relative efficiency
+LeftOutPoint leave_out(const std::vector<double>& log_likelihood, double r_eff = 1.0);
+
+/// The same, with the relative efficiency that the chains have.
+/// @param log_likelihood ln likelihood of the point, chain by chain [draws]
+LeftOutPoint leave_out_of_chains(const std::vector<double>& log_likelihood, std::size_t chains);
 
 }  // namespace recoil

@@ -393,27 +393,33 @@ SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
   return sampled;
 }
 
-/// Includes the errors of constants that the fit holds. The draws used the stated constants; this
-/// gives each draw its own constants, and shifts its parameters as the fit would change, to first
-/// order (positive parameters by a factor).
-void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
-                    RandomStream& random, std::vector<double>& draw) {
-  const ImpactModel& model = fitted.model;
-  const std::size_t count = fitted.constant_effects.size();
-  std::vector<double> z(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    z[k] = random.normal();
-    draw[model.first_constant() + k] = model.constants[k].moved(model.constants[k].stated, z[k]);
-  }
-  for (std::size_t j = 0; count > 0 && j < moving.size(); ++j) {
-    const ParameterSlot& slot = model.slots[moving[j]];
-    const double estimate = fitted.theta[moving[j]];
+/// Shifts the parameters of a draw as the fit would change if its held constants were off by z, to
+/// first order (positive parameters by a factor).
+/// @param sign -1: back
+void shift_by_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
+                        const std::vector<double>& z, double sign, std::vector<double>& draw) {
+  for (const std::size_t j : moving) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    const double estimate = fitted.theta[j];
     double by = 0.0;
-    for (std::size_t k = 0; k < count; ++k) by += z[k] * fitted.constant_effects[k][moving[j]];
-    double& value = draw[moving[j]];
+    for (std::size_t k = 0; k < z.size(); ++k) by += sign * z[k] * fitted.constant_effects[k][j];
+    double& value = draw[j];
     value = slot.lower >= 0.0 && estimate > 0.0 ? value * std::exp(by / estimate) : value + by;
     value = std::clamp(value, slot.lower, slot.upper);
   }
+}
+
+/// Includes the errors of constants that the fit holds. The draws used the stated constants; this
+/// gives each draw its own constants.
+void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
+                    RandomStream& random, std::vector<double>& draw) {
+  const ImpactModel& model = fitted.model;
+  std::vector<double> z(fitted.constant_effects.size());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    z[k] = random.normal();
+    draw[model.first_constant() + k] = model.constants[k].moved(model.constants[k].stated, z[k]);
+  }
+  if (!z.empty()) shift_by_constants(fitted, moving, z, 1.0, draw);
 }
 
 /// Selects joint draws from the variance functions in proportion to their weights: the fractional
@@ -423,7 +429,7 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
                 const PosteriorOptions& options, PosteriorResult& result) {
   const std::vector<Observation>& points = alternatives.front().fitted().data.points;
   const bool scaled = sampled.front().chains.front().density->scaled;
-  if (result.left_out.possible()) result.pointwise.resize(points.size());
+  if (options.pointwise && result.left_out.possible()) result.pointwise.resize(points.size());
   for (std::size_t c = 0; c < options.chains; ++c) {
     RandomStream constants(options.seed, RandomPurpose::constants, c);
     RandomStream scales(options.seed, RandomPurpose::posterior, (std::uint64_t{1} << 32) + c);
@@ -436,6 +442,7 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
       const Posterior& density = *sampled[k].chains[c].density;
       const State& state = sampled[k].chains[c].kept[i];
       result.draws.push_back(state.theta);
+      result.alternative.push_back(k);
       draw_constants(alternatives[k].fitted(), moving, constants, result.draws.back());
       const double scale = scaled ? density.draw_scale(state, scales) : 1.0;
       if (scaled) result.scale.push_back(scale);
@@ -451,12 +458,11 @@ void keep_draws(const std::vector<FitAlternative>& alternatives,
 
 void leave_one_out(int threads, PosteriorResult& result) {
   LeaveOneOut& out = result.left_out;
-  if (!out.possible()) return;
   out.points.resize(result.pointwise.size());
   std::vector<double> elpd(out.points.size()), in_sample(out.points.size());
   parallel_over(out.points.size(), threads, [&](std::size_t i) {
     const std::vector<double>& ln = result.pointwise[i];
-    out.points[i] = leave_out(ln);
+    out.points[i] = leave_out_of_chains(ln, result.chains);
     elpd[i] = out.points[i].elpd;
     const double most = *std::max_element(ln.begin(), ln.end());
     double sum = 0.0;
@@ -465,6 +471,7 @@ void leave_one_out(int threads, PosteriorResult& result) {
   });
   out.elpd = std::accumulate(elpd.begin(), elpd.end(), 0.0);
   out.p_loo = std::accumulate(in_sample.begin(), in_sample.end(), 0.0) - out.elpd;
+  for (const LeftOutPoint& point : out.points) out.mcse = std::hypot(out.mcse, point.mcse);
   out.se = std::sqrt(static_cast<double>(elpd.size())) * standard_deviation(elpd);
 }
 
@@ -538,7 +545,7 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
   result.left_out.shared_errors = fitted.data.share_errors();
   result.left_out.unscaled = fitted.data.noise.student.has_value();
   keep_draws(alternatives, sampled, moving, options, result);
-  leave_one_out(options.threads, result);
+  if (!result.pointwise.empty()) leave_one_out(options.threads, result);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const bool held = j >= fitted.model.first_constant() && !fitted.constant_effects.empty();
     if (!fitted.model.slots[j].moves() && !held) continue;
@@ -552,6 +559,49 @@ PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives
   }
   fill_capture(fitted, capture, options, result);
   return result;
+}
+
+std::vector<double> shares_below(const FitResult& fitted, std::vector<double> theta, int steps,
+                                 std::uint64_t seed, std::uint64_t stream) {
+  if (scale_unknown(fitted) && fitted.dof <= 0) return {};
+  Chain chain = {std::make_unique<Posterior>(fitted),
+                 RandomStream(seed, RandomPurpose::posterior, stream),
+                 {},
+                 {}};
+  RandomStream& random = chain.random;
+  const PosteriorCoordinates& coordinates = chain.density->coordinates;
+  const auto [centre, covariance] = chain.density->normal_about_estimate();
+  const Proposals proposals(centre, covariance);
+  if (!proposals.usable()) return {};
+  const std::vector<double> own = theta;
+  if (!fitted.constant_effects.empty()) {
+    const auto z = constant_deviations(fitted.model, fitted.data, theta);
+    shift_by_constants(fitted, coordinates.moving(), z, -1.0, theta);
+  }
+  State first;
+  for (const std::size_t j : coordinates.moving()) {
+    first.z.push_back(coordinates.to_z(j, theta[j]));
+  }
+  chain.density->evaluate(first);
+  if (!std::isfinite(first.log_density)) return {};
+  std::vector<double> below(own.size(), 0.0), equal(own.size(), 1.0);
+  const auto before = static_cast<int>(random.below(static_cast<std::uint64_t>(steps) + 1));
+  for (const int leg : {before, steps - before}) {
+    chain.at = first;
+    for (int k = 0; k < leg; ++k) {
+      chain.step(proposals);
+      std::vector<double> draw = chain.at.theta;
+      draw_constants(fitted, coordinates.moving(), random, draw);
+      for (std::size_t j = 0; j < own.size(); ++j) {
+        below[j] += draw[j] < own[j] ? 1.0 : 0.0;
+        equal[j] += draw[j] == own[j] ? 1.0 : 0.0;
+      }
+    }
+  }
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    below[j] = (below[j] + random.uniform() * equal[j]) / (steps + 1.0);
+  }
+  return below;
 }
 
 }  // namespace recoil

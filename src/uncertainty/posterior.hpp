@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,16 +36,13 @@ struct LeaveOneOut {
   double elpd = 0.0;           ///< sum over the points
   /// Standard error of elpd: sqrt(n) times the standard deviation over the points.
   double se = 0.0;
+  double mcse = 0.0;  ///< Monte-Carlo error of elpd
   /// Effective number of parameters: sum of ln mean likelihood of the points minus elpd.
   double p_loo = 0.0;
   std::vector<LeftOutPoint> points;
 
   bool possible() const { return !shared_errors && !unscaled; }
 };
-
-/// Above this shape the smoothed weights of a point are unreliable (Vehtari, Simpson, Gelman, Yao &
-/// Gabry 2024, J. Mach. Learn. Res. 25, 72).
-inline constexpr double largest_pareto_k = 0.7;
 
 /// The posterior of all moving parameters, as joint draws. The priors are flat between the bounds
 /// (in the logarithm for `log_scale`); material constants that fits move have their stated
@@ -66,11 +64,12 @@ struct PosteriorResult {
   std::vector<PosteriorMarginal> capture;     ///< in the order of the estimates
   std::vector<std::vector<double>> draws;     ///< [chain by chain][slots]
   std::vector<std::vector<double>> capture_draws;  ///< V* [m/s] [draws][capture], NaN: none
+  std::vector<std::size_t> alternative;            ///< index of the alternative [draws]
   std::vector<double> scale;                       ///< scale of the noise [draws]; empty: known
   std::vector<double> log_likelihood;              ///< [draws]
   /// [draws]; contains -ln scale, as the prior of the scale is not normalised.
   std::vector<double> log_prior;
-  std::vector<std::vector<double>> pointwise;  ///< ln likelihood [points][draws]; empty: missing
+  std::vector<std::vector<double>> pointwise;  ///< ln likelihood [points][draws]; empty: none
   LeaveOneOut left_out;
 
   bool available() const { return !missing; }
@@ -85,5 +84,14 @@ struct PosteriorResult {
 PosteriorResult sample_posterior(const std::vector<FitAlternative>& alternatives,
                                  const std::vector<CaptureEstimate>& capture,
                                  const PosteriorOptions& options);
+
+/// The share of a path of the sampler that lies below `theta` [slots]. The path goes through theta,
+/// at a place drawn from all of its `steps` + 1, and its proposals do not adapt. If theta is itself
+/// a draw of the posterior, the shares are uniform on [0, 1], however slowly the path moves (Gandy
+/// & Scott 2020, arXiv 2001.06465); equal values are ordered at random.
+/// @param stream number of the stream of random numbers
+/// @return empty if the posterior is not known, or its density at theta is 0
+std::vector<double> shares_below(const FitResult& fitted, std::vector<double> theta, int steps,
+                                 std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace recoil

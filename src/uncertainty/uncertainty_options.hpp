@@ -19,6 +19,7 @@ struct PosteriorOptions {
   /// Largest number of steps per chain in one round; the sampler then stops.
   int most_steps = 64000;
   double largest_r_hat = 1.01;   ///< largest R-hat of every quantity
+  bool pointwise = true;         ///< keep the likelihood of every point, and leave points out
   double least_effective = 400;  ///< least effective draws of every quantity, in bulk and tails
 };
 

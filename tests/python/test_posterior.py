@@ -282,6 +282,12 @@ def test_every_shipped_fit_settles_in_ten_seconds(place, command, name, material
         # The two draws beside the median are equally far from it: nine digits decide which is first.
         assert found["r_hat"] == pytest.approx(folded_r_hat(draws.reshape(shape)), abs=5e-5)
         assert found["mean"] == pytest.approx(draws.mean(), rel=1e-6)
+    with open(place / "out" / "log_likelihood.csv", newline="") as file:
+        header, *points = csv.reader(file)
+    assert header == ["chain", "draw", *(str(i + 1) for i in range(len(fit["residuals"])))]
+    assert [point[:2] for point in points] == [[row["chain"], row["draw"]] for row in rows]
+    assert np.allclose(np.array(points, dtype=float)[:, 2:].sum(axis=1),
+                       [float(row["log_likelihood"]) for row in rows], atol=1e-4)
     # ln likelihood of all points together: of the sum of their terms, elpd lies below the best.
     loo = posterior["loo"]
     assert len(loo["pareto_k"]) == len(fit["residuals"])

@@ -81,19 +81,53 @@ TEST(Chains, ThatStandStillApartHaveNoEnd) {
 }
 
 TEST(LeftOut, IsThatOfThePackageLoo) {
-  // psis(-ll, r_eff = 1) and ln(sum(weights * exp(ll))) of the R package loo 2.5.1 (Vehtari, Gabry,
-  // Magnusson, Yao, Buerkner, Paananen & Gelman) for ll = k ln(u) - 1: weights u^-k have a Pareto
-  // tail of shape k.
-  const double expected[][3] = {{0.2, 0.291596241127, -1.221913420593},
-                                {0.7, 0.712835365097, -2.112270337469},
-                                {1.1, 1.049084809757, -3.478926182931}};
-  for (const auto& [k, shape, elpd] : expected) {
+  // psis(-ll, r_eff = r_eff) of the R package loo 2.5.1 (Vehtari, Gabry, Magnusson, Yao, Buerkner,
+  // Paananen & Gelman) for ll = k ln(u) - 1: weights u^-k have a Pareto tail of shape k. With its
+  // weights w, E = sum(w exp(ll)) and v = sum(w^2 (exp(ll) - E)^2) / r_eff: ln E and
+  // sqrt(ln(1 + v / E^2)).
+  const double expected[][5] = {
+      {0.2, 1.0, 0.291596241127, -1.221913420593, 0.008094043008},
+      {0.7, 1.0, 0.712835365097, -2.112270337469, 0.080664122033},
+      {1.1, 1.0, 1.049084809757, -3.478926182931, 0.278414073004},
+      {0.2, 0.3, 0.192095878093, -1.221829687790, 0.014567152597},
+      {0.7, 0.3, 0.614894840328, -2.096553505360, 0.127978020602},
+      {0.7, 1.6, 0.753959125838, -2.118197357603, 0.067174984944},
+  };
+  for (const auto& [k, r_eff, shape, elpd, mcse] : expected) {
     std::vector<double> ln;
     for (const double u : uniforms(9, 1000)) ln.push_back(k * std::log(u) - 1.0);
-    const LeftOutPoint point = leave_out(ln);
+    const LeftOutPoint point = leave_out(ln, r_eff);
     EXPECT_NEAR(point.pareto_k, shape, 1e-9);
     EXPECT_NEAR(point.elpd, elpd, 1e-9);
+    EXPECT_NEAR(point.mcse, mcse, 1e-9);
   }
+}
+
+TEST(LeftOut, OfChainsHasTheirRelativeEfficiency) {
+  // The same for ll = -8 (x - 0.3)^2 of the chains above, with r_eff = ess_mean(exp(ll)) / 800 of
+  // the R package posterior 1.4.0.
+  const double expected[][5] = {
+      {0.6, 0.41133693273777, 1.63583552667770, -6.32594073028150, 0.71649284910942},
+      {-0.5, 1.82552953018340, 0.96466935468075, -4.65286238093520, 0.25434360631124},
+      {0.0, 1.00595214810130, -0.61579752057490, -2.73064508163050, 0.07424606385680},
+  };
+  for (const auto& [phi, r_eff, shape, elpd, mcse] : expected) {
+    std::vector<double> ln;
+    for (const std::vector<double>& chain : chains_with(phi, 0.0)) {
+      for (const double x : chain) ln.push_back(-8.0 * (x - 0.3) * (x - 0.3));
+    }
+    const LeftOutPoint point = leave_out_of_chains(ln, 4);
+    EXPECT_NEAR(point.r_eff, r_eff, 1e-9) << phi;
+    EXPECT_NEAR(point.pareto_k, shape, 1e-8) << phi;
+    EXPECT_NEAR(point.elpd, elpd, 1e-8) << phi;
+    EXPECT_NEAR(point.mcse, mcse, 1e-8) << phi;
+  }
+}
+
+TEST(LeftOut, LimitsOfTheShapeDependOnTheDraws) {
+  EXPECT_DOUBLE_EQ(largest_pareto_k(100), 0.5);
+  EXPECT_NEAR(largest_pareto_k(1000), 2.0 / 3.0, 1e-15);
+  EXPECT_DOUBLE_EQ(largest_pareto_k(4000), 0.7);
 }
 
 TEST(LeftOut, OfAPointThatSaysNothingChangesNothing) {

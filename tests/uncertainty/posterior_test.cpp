@@ -149,7 +149,39 @@ TEST(Posterior, LeavesOutPointsAsRefitsToTheOthersWould) {
     }
     // 400 draws: the error of ln of the mean is below 0.05 for points with little leverage.
     EXPECT_NEAR(all.left_out.points[left].elpd, std::log(density), 0.1) << left;
-    EXPECT_LT(all.left_out.points[left].pareto_k, largest_pareto_k);
+    EXPECT_LT(all.left_out.points[left].pareto_k, 0.7);
+  }
+}
+
+TEST(Posterior, LikelihoodOfThePointsIsNormalInRestitution) {
+  // Far from capture, with stated errors: ln p = -(e - e_model)^2 / (2 sd^2) - ln(sd sqrt(2 pi)),
+  // with e_model from the simulator of the reconstructions. The density is exactly normal in a
+  // function of e^2, whose r differs from this one by sd / (2 e) = 0.008.
+  synthetic::Design design;
+  design.velocities = {6.5, 9.0, 12.0, 18.0, 25.0, 50.0, 90.0};
+  std::vector<Dataset> data = {synthetic::dataset(design)};
+  RandomStream random(11, RandomPurpose::coverage, 0);
+  for (ImpactPoint& point : data[0].points) point.restitution += 0.01 * random.normal();
+  const FitResult fitted = fit(make_model(synthetic::spec(), data), gather(data));
+  const PosteriorResult found = sample_posterior(fit_alternatives(fitted), {}, {});
+  ASSERT_TRUE(found.available());
+  ASSERT_EQ(found.pointwise.size(), data[0].points.size());
+  for (std::size_t k = 0; k < found.draws.size(); k += 400) {
+    synthetic::Design drawn;
+    drawn.C_H = found.draws[k][0];
+    drawn.C_A = found.draws[k][1];
+    const Truth truth = synthetic::truth_of(drawn);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < data[0].points.size(); ++i) {
+      const ImpactPoint& point = data[0].points[i];
+      const double r =
+          (point.restitution - true_restitution(truth, point.diameter, point.incident_velocity)) /
+          0.01;
+      const double expected = -0.5 * r * r - std::log(0.01 * std::sqrt(2.0 * M_PI));
+      EXPECT_NEAR(found.pointwise[i][k], expected, 0.01 * (1.0 + std::abs(r))) << i;
+      sum += found.pointwise[i][k];
+    }
+    EXPECT_NEAR(found.log_likelihood[k], sum, 1e-9);
   }
 }
 

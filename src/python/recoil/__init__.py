@@ -216,6 +216,7 @@ def coverage(
     source: Source,
     # made by ./run docs: arguments of coverage
     datasets: int = 100,
+    posterior: bool = False,
     replicates: Optional[Union[int, str]] = None,
     seed: Optional[int] = None,
     threads: int = 0,
