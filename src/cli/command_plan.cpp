@@ -178,8 +178,8 @@ void add_plan(Program& program) {
                   "plan an experiment: which velocities and sizes to measure, and how often", R"(
 Needs a fit file and datasets with materials; the datasets need no points yet. The plan
 determines the free parameters and the capture velocities with the fewest impacts, and states
-the errors to expect. It depends on the assumed parameters: repeat it with --parameters after
-the first results. With --out it writes plan.html (a page to read), plan.json and points.csv
+the errors to expect. It serves for parameters that are a factor of 2 wrong, but less well:
+measure a quarter of it, fit, and plan the rest with --parameters. With --out it writes plan.html (a page to read), plan.json and points.csv
 (to be filled in).
 
   recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9

@@ -344,7 +344,7 @@ struct PlanFile {
       (std::string, unit, "unit of the value"),
       (OrNull<double>, relative_error, "relative standard error under the plan: the median over "
        "the draws of the parameters", "1"),
-      (OrNull<double>, relative_error_worst, "the largest over the draws", "1"),
+      (OrNull<double>, relative_error_worst, "the 95 % quantile over the draws", "1"),
       (OrNull<double>, relative_error_even, "the median for as many points, evenly spaced in ln V",
        "1"),
       (OrNull<double>, impacts, "impacts for the wanted error, in the proportions of the plan; "

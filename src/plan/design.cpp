@@ -8,9 +8,10 @@
 namespace recoil {
 namespace {
 
-constexpr int most_admissions = 200;     // of places to the multiplicative algorithm
-constexpr int rounds = 25;               // its iterations between admissions
-constexpr double excess_at_end = 0.002;  // relative excess of the largest d_i over the average
+constexpr int most_admissions = 200;  // of places to the multiplicative algorithm
+constexpr int rounds = 25;            // its iterations between admissions
+// Relative excess of the largest d_i over the average, with one draw and with several.
+constexpr double excess_at_end = 0.002, excess_of_several = 0.01;
 constexpr double admitted_share = 1e-3;  // share of a place when it is admitted
 constexpr double no_share = 1e-4;        // places with a smaller share are left out
 constexpr int most_exchanges = 500;
@@ -94,13 +95,16 @@ std::vector<double> numbers_of(const std::vector<int>& counts) {
 }
 
 Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<double>& counts) {
-  Eigen::MatrixXd information = problem.known;
+  const auto informing = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& n) {
+    return Eigen::MatrixXd(problem.known + rows.transpose() * n.asDiagonal() * rows);
+  };
+  std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0.0) continue;
-    const auto row = problem.rows.row(static_cast<Eigen::Index>(i));
-    information.noalias() += counts[i] * row.transpose() * row;
+    if (counts[i] != 0.0) places.push_back(static_cast<Eigen::Index>(i));
   }
-  return information;
+  const Eigen::Map<const Eigen::VectorXd> n(counts.data(), problem.rows.rows());
+  if (places.size() == counts.size()) return informing(problem.rows, n);
+  return informing(problem.rows(places, Eigen::all), n(places));
 }
 
 Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<double>& counts) {
@@ -119,12 +123,13 @@ std::vector<double> optimal_shares(const DesignProblems& draws, double points,
                                    std::vector<double> shares) {
   const auto count = static_cast<std::size_t>(draws.front().rows.rows());
   if (shares.empty()) shares.assign(count, 1.0 / static_cast<double>(count));
+  const double excess = draws.size() > 1 ? excess_of_several : excess_at_end;
   for (int k = 0; k < most_admissions; ++k) {
     const Eigen::VectorXd worth = criterion_of(draws, times(shares, points)).worth;
     if (worth.size() == 0) break;
     const double average =
         worth.dot(Eigen::Map<const Eigen::VectorXd>(shares.data(), worth.size()));
-    if (!(worth.maxCoeff() > (1.0 + excess_at_end) * average)) break;
+    if (!(worth.maxCoeff() > (1.0 + excess) * average)) break;
     for (std::size_t i = 0; i < count; ++i) {
       if (worth(static_cast<Eigen::Index>(i)) > average) shares[i] += admitted_share;
     }

@@ -43,7 +43,7 @@ double mean_sum_of(const DesignProblems& draws, const std::vector<double>& count
 /// which with one draw decreases the sum in every step if `known` is 0: Silvey, S. D.,
 /// Titterington, D. M. & Torsney, B. (1978), Commun. Stat. A 7, 1379-1389; Yu, Y. (2010), Ann.
 /// Stat. 38, 1593-1606. It ends when no d_i of
-/// all places exceeds the weighted average by more than 0.2 %.
+/// all places exceeds the weighted average by more than 0.2 % (several draws: 1 %).
 /// @param shares where to start; empty: equal shares
 std::vector<double> optimal_shares(const DesignProblems& draws, double points,
                                    std::vector<double> shares = {});

@@ -19,15 +19,27 @@ namespace recoil {
 namespace {
 
 constexpr int grid_velocities = 48;  // velocities of each diameter
-constexpr int fewest_points = 10;    // least number of points if the wanted error decides
+// With many diameters fewer draws are taken: draws times places.
+constexpr std::size_t most_outlooks = 40000, fewest_draws = 25;
+constexpr int fewest_points = 10;  // least number of points if the wanted error decides
 // The default range of velocities, relative to the smallest and the largest capture velocity.
 constexpr double below_capture = 0.8, above_capture = 30.0;
 // A plan is refused if this number of points leaves an error of 100 %.
 constexpr double hopeless_points = 1e6;
 constexpr double least_share = 0.05;  // least share in LearntAt
+constexpr double worst_share = 0.95;  // share of the draws in which an error is at most the worst
 // The part of one evenly spaced point that is taken as known, because the best experiment for a
 // single quantity can leave other parameters undetermined.
 constexpr double share_of_everywhere = 1e-6;
+
+/// The value that a share `p` of `values` does not exceed.
+double quantile(std::vector<double> values, double p) {
+  const auto place = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + place);
+  return values[static_cast<std::size_t>(place)];
+}
+
+double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
 /// The velocity rounded to three digits.
 double as_set(double velocity) {
@@ -62,18 +74,15 @@ std::vector<PlannedSize> planned_sizes(const ImpactModel& model, const std::vect
 }
 
 /// Sets the range of velocities from the capture velocities if none is stated.
-/// @param draws the sizes under each draw, the likeliest values first
-void complete_range(const FitSpec& spec, const std::vector<std::vector<PlannedSize>>& draws,
+void complete_range(const FitSpec& spec, const std::vector<PlannedSize>& sizes,
                     PlanOptions& options) {
   if (options.slowest > 0.0) return;
   double least = INFINITY;
   double most = 0.0;
-  for (const std::vector<PlannedSize>& sizes : draws) {
-    for (const PlannedSize& size : sizes) {
-      if (!size.capture.found) continue;
-      least = std::min(least, size.capture.value);
-      if (&sizes == &draws.front()) most = std::max(most, size.capture.value);
-    }
+  for (const PlannedSize& size : sizes) {
+    if (!size.capture.found) continue;
+    least = std::min(least, size.capture.value);
+    most = std::max(most, size.capture.value);
   }
   if (!(most > 0.0)) {
     throw InputError({spec.file.string()}, "the range of velocities is not known",
@@ -109,30 +118,28 @@ std::vector<double> spaced(double from, double to) {
   return velocities;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Computes `settings`, `quantities` and the totals of a plan.
 class Planner {
  public:
   /// @param draws values of theta, those of the plan first
   Planner(const FitSpec& spec, const std::vector<std::vector<double>>& draws, ExperimentPlan& plan)
       : plan_(plan) {
+    std::size_t places = 0;
+    for (const Dataset& dataset : plan.datasets) places += dataset.points.size() * grid_velocities;
+    const std::size_t count = std::min(
+        draws.size(), std::max(fewest_draws, most_outlooks / std::max<std::size_t>(1, places)));
     std::vector<std::vector<PlannedSize>> sizes;
-    for (const std::vector<double>& theta : draws) {
-      sizes.push_back(planned_sizes(plan.model, theta, plan.datasets));
+    for (std::size_t k = 0; k < count; ++k) {
+      sizes.push_back(planned_sizes(plan.model, draws[k], plan.datasets));
     }
-    complete_range(spec, sizes, plan.options);
     sizes_ = sizes.front();
+    complete_range(spec, sizes_, plan.options);
     for (const Dataset& dataset : plan.datasets) {
       scatter_.push_back(planned_scatter(plan.options, spec.noise, dataset));
     }
     velocities_ = spaced(plan.options.slowest, plan.options.fastest);
     list_quantities(spec);
-    for (std::size_t k = 0; k < draws.size(); ++k) add_draw(draws[k], sizes[k]);
+    for (std::size_t k = 0; k < count; ++k) add_draw(draws[k], sizes[k]);
     plan.draws = static_cast<int>(draws_.size());
   }
 
@@ -182,7 +189,7 @@ class Planner {
     for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
       PlannedQuantity& quantity = plan_.quantities[q];
       quantity.error = std::sqrt(median(variances[q]));
-      quantity.worst_error = std::sqrt(*std::ranges::max_element(variances[q]));
+      quantity.worst_error = std::sqrt(quantile(variances[q], worst_share));
       quantity.plain_error = std::sqrt(median(even_variances[q]));
       plan_.reached = plan_.reached && quantity.error <= plan_.options.error;
       quantity.impacts = impacts(factor_for(draws_, counts, q));

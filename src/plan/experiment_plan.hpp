@@ -56,7 +56,7 @@ struct PlannedQuantity {
   std::size_t dataset = 0;
   double diameter = 0.0;  ///< of a capture velocity [m]
   double value = 0.0;     ///< assumed value, or derived from the assumed parameters [unit]
-  /// Relative standard error under the plan: the median over the draws, and the largest [1].
+  /// Relative standard error under the plan: the median over the draws, and the 95 % quantile [1].
   double error = 0.0, worst_error = 0.0;
   /// The median for equally many points evenly spaced in ln V [1].
   double plain_error = 0.0;
@@ -102,7 +102,8 @@ std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,
 /// points is evenly spaced in ln V.
 /// @param datasets of `datasets_to_plan`
 /// @param draws values of theta [slots]: first the assumed ones, see `drawn_values`. A further draw
-/// is left out if no experiment determines its parameters.
+/// is left out if no experiment determines its parameters, or if they are many: with more than four
+/// diameters, only so many are taken that draws times places are 40000, but at least 25.
 /// @param options plan options; velocities are needed if `datasets` had no points of their own
 /// @throws InputError if no parameter is free or no velocity is known
 /// @throws ComputationError if no number of points determines a parameter

@@ -202,8 +202,9 @@ double worst_capture(const ExperimentPlan& plan) {
 Table errors_table(const ExperimentPlan& plan, bool folded) {
   Table table;
   table.caption =
-      say("Standard errors of this plan, expected and at worst (median and largest of {} draws of "
-          "the parameters), and of as many points evenly spaced in ln {V} above capture; impacts "
+      say("Standard errors of this plan, expected and at worst (median and 95 % quantile of {} "
+          "draws of the parameters), and of as many points evenly spaced in ln {V} above capture; "
+          "impacts "
           "for {:.3g} %: with this plan{}",
           plan.draws, 100.0 * plan.options.error,
           folded ? "" : ", evenly spaced, and with a plan for this quantity alone");
