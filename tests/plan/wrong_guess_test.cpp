@@ -264,4 +264,38 @@ TEST(WrongGuess, OfThreeParametersCostsLittleInTwoSteps) {
       losses({{0.5, 0.5, 0.5}, {0.5, 2.0, 2.0}, {2.0, 0.5, 2.0}, {2.0, 2.0, 0.5}}, far_sizes()));
 }
 
+// C_H and C_A as a fit knows them, correlated; f0 as a guess does: ln f0 has the deviation ln 2.
+TEST(WrongGuess, DrawsHaveTheCovarianceOfAFitOrAFactorOfTwo) {
+  const recoil::ImpactModel model =
+      recoil::make_model(recoil::synthetic::spec(true), {recoil::synthetic::dataset(Design{})});
+  const std::size_t h = model.slot_C_H[0], a = model.slot_C_A[0], f = model.slot_adhesion[0];
+  recoil::Guess guess{model.initial(), {}};
+  const std::size_t n = model.slots.size();
+  guess.covariance.assign(n, std::vector<double>(n, 0.0));
+  const double sd_h = 0.05 * guess.theta[h], sd_a = 0.1 * guess.theta[a];
+  guess.covariance[h][h] = sd_h * sd_h;
+  guess.covariance[a][a] = sd_a * sd_a;
+  guess.covariance[h][a] = guess.covariance[a][h] = -0.6 * sd_h * sd_a;
+  constexpr int count = 20000;
+  const auto draws = recoil::drawn_values(model, guess, 3, count);
+  EXPECT_EQ(draws.front(), guess.theta);
+  EXPECT_EQ(draws, recoil::drawn_values(model, guess, 3, count));
+  double hh = 0.0, aa = 0.0, ha = 0.0, ff = 0.0, hf = 0.0;
+  for (const std::vector<double>& theta : draws) {
+    const double of_h = std::log(theta[h] / guess.theta[h]);
+    const double of_a = std::log(theta[a] / guess.theta[a]);
+    const double of_f = std::log(theta[f] / guess.theta[f]);
+    hh += of_h * of_h / count;
+    aa += of_a * of_a / count;
+    ha += of_h * of_a / count;
+    ff += of_f * of_f / count;
+    hf += of_h * of_f / count;
+  }
+  EXPECT_NEAR(std::sqrt(hh), 0.05, 0.002);
+  EXPECT_NEAR(std::sqrt(aa), 0.1, 0.003);
+  EXPECT_NEAR(ha / std::sqrt(hh * aa), -0.6, 0.03);
+  EXPECT_NEAR(std::sqrt(ff), std::log(2.0), 0.02);
+  EXPECT_NEAR(hf / std::sqrt(hh * ff), 0.0, 0.03);
+}
+
 }  // namespace
