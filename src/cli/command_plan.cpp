@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
@@ -14,6 +16,7 @@
 #include "data/text.hpp"
 #include "json/fit_file.hpp"
 #include "plan/experiment_plan.hpp"
+#include "plan/guesses.hpp"
 #include "plot/plot.hpp"
 #include "report/plan_report.hpp"
 
@@ -75,6 +78,28 @@ void assume(const std::string& name, const std::string& text, const FitSpec& spe
                    did_you_mean(name, names));
 }
 
+/// The values of `model`, with the covariance of a fit for those that it estimated and `stated`,
+/// the names of --assume, do not replace. It includes the errors of the laws, if the fit does.
+Guess guess_of(const ImpactModel& model, const std::optional<FitFile>& fitted,
+               const std::set<std::string, std::less<>>& stated) {
+  const std::size_t n = model.slots.size();
+  Guess guess{model.initial(), {}};
+  if (!fitted || !fitted->covariance) return guess;
+  guess.covariance.assign(n, std::vector<double>(n, 0.0));
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t j = 0; j < n; ++j) {
+    if (stated.contains(model.slots[j].parameter->name)) continue;
+    rows[model.slots[j].label()] = j;
+  }
+  for (const auto& [one, row] : *fitted->covariance) {
+    for (const auto& [other, value] : row) {
+      if (!rows.contains(one) || !rows.contains(other)) continue;
+      guess.covariance[rows[one]][rows[other]] = value.value_or(0.0);
+    }
+  }
+  return guess;
+}
+
 PlanOptions plan_options(const GivenOptions& given) {
   PlanOptions plan;
   plan.error = given.number("--error");
@@ -118,16 +143,21 @@ void run_plan(const GivenOptions& given) {
   }
   const std::vector<Dataset> planned = datasets_to_plan(datasets, options.diameters);
   ImpactModel model = make_model(spec, planned);
-  std::string origin = "the initial values of the fit file";
+  const std::string to_a_factor = fmt::format("to a factor of {:g}", guess_factor);
+  std::string origin = "the initial values of the fit file, " + to_a_factor;
   if (fitted) {
     take_fitted_values(model, datasets, *fitted, parameters);
-    origin = origin_words(*fitted, parameters);
+    origin = origin_words(*fitted, parameters) + ", with the errors of the fit";
   }
+  std::set<std::string, std::less<>> stated;
   for (const auto& [name, value] : given.assignments("--assume")) {
     assume(name, value, spec, model);
-    origin += fmt::format(", {} as stated", name);
+    origin += fmt::format(", {} as stated{}", name, fitted ? " " + to_a_factor : "");
+    stated.insert(name);
   }
-  const ExperimentPlan plan = plan_experiment(spec, planned, model.initial(), options);
+  const ExperimentPlan plan = plan_experiment(
+      spec, planned, drawn_values(model, guess_of(model, fitted, stated), spec.uncertainty.seed),
+      options);
   const std::string result = json_plan(plan);
   if (!out.empty()) {
     std::vector<WholeFile> files;
@@ -148,8 +178,8 @@ void add_plan(Program& program) {
                   "plan an experiment: which velocities and sizes to measure, and how often", R"(
 Needs a fit file and datasets with materials; the datasets need no points yet. The plan
 determines the free parameters and the capture velocities with the fewest impacts, and states
-the errors to expect. It depends on the assumed parameters: repeat it with --parameters after
-the first results. With --out it writes plan.html (a page to read), plan.json and points.csv
+the errors to expect. It serves for parameters that are a factor of 2 wrong, but less well:
+measure a quarter of it, fit, and plan the rest with --parameters. With --out it writes plan.html (a page to read), plan.json and points.csv
 (to be filled in).
 
   recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9

@@ -17,6 +17,7 @@ enum class RandomPurpose : std::uint32_t {
   calibration = 10,
   example = 11,
   experiments = 12,
+  guesses = 13,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

@@ -330,6 +330,7 @@ struct PlanFile {
 
   struct Assumed { RECOIL_RESULT(
       (Named<Parameter>, parameters, "by name"),
+      (int, draws, "number of draws about these values for which the plan is made", "1"),
       (Ends, velocities, "slowest and fastest incident velocity", "m/s"),
       (double, scatter, "standard deviation of e of one impact, over e", "1"),
       (double, floor, "the part of it that does not depend on e", "1"),
@@ -360,13 +361,16 @@ struct PlanFile {
       (OrAbsent<double>, diameter_um, "diameter of a capture velocity", "um"),
       (OrNull<double>, value, "assumed value, or what follows from them", "its unit"),
       (std::string, unit, "unit of the value"),
-      (OrNull<double>, relative_error, "relative standard error under the plan", "1"),
-      (OrNull<double>, relative_error_even, "the same for as many points, evenly spaced in ln V",
+      (OrNull<double>, relative_error, "relative standard error under the plan: the median over "
+       "the draws of the parameters", "1"),
+      (OrNull<double>, relative_error_worst, "the 95 % quantile over the draws", "1"),
+      (OrNull<double>, relative_error_even, "the median for as many points, evenly spaced in ln V",
        "1"),
       (OrNull<double>, impacts, "impacts for the wanted error, in the proportions of the plan; "
        "null: no number is enough", "1"),
       (OrNull<double>, impacts_even, "the same, evenly spaced in ln V", "1"),
-      (OrNull<double>, impacts_alone, "the same, if this were the only quantity", "1"),
+      (OrNull<double>, impacts_alone, "the same, if this were the only quantity and the assumed "
+       "values were right", "1"),
       (std::vector<Place>, learnt_at, "the best experiment for this quantity alone")) };
 
   RECOIL_RESULT(
@@ -376,13 +380,13 @@ struct PlanFile {
     (std::vector<Data>, datasets, "each dataset", "", R"({"minItems": 1})"),
     (Assumed, assumed, "the assumptions"),
     (double, wanted_error, "wanted relative standard error", "1"),
-    (bool, reached, "whether all quantities have the wanted error"),
+    (bool, reached, "whether all quantities have the wanted error, in half of the draws"),
     (double, checks, "share of the points that are evenly spaced", "1"),
     (int, points, "number of points"),
     (int, events_per_point, "impacts per point"),
     (int, impacts, "number of impacts"),
     (OrNull<double>, efficiency, "at least: the sum of the relative variances that no plan "
-     "undercuts, over that of this plan", "1"),
+     "undercuts, over that of this plan; geometric mean over the draws", "1"),
     (std::vector<Setting>, settings, "the points to measure"),
     (std::vector<Quantity>, quantities, "what they determine")) };
 

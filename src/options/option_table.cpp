@@ -253,14 +253,17 @@ const std::vector<OptionRow>& option_rows() {
       {"plan", "--diameter", list(diameter(), "D,D,...", 1, takes::many),
        "available sphere diameters, e.g. 2,5,10 (default: those of the points)"},
       {"plan", "--error", number(1e-4, 1.0),
-       "wanted relative standard error of every free parameter and capture velocity", "0.1"},
+       "wanted relative standard error of every free parameter and capture velocity (the median "
+       "over what the parameters may be)",
+       "0.1"},
       {"plan", "--impacts", whole(1, 10000000),
        "total number of impacts (default: as many as the wanted error needs, at most 10000)"},
       {"plan", "--events", whole(1, 100000), "number of impacts averaged in one point", "20"},
       {"plan", "--checks", number(0.0, 1.0),
        "share of the points that is spread evenly to detect a wrong model", "0.25"},
       {"plan", "--assume", assignments("NAME=VALUE"),
-       "assume these values of parameters, e.g. C_H=3e-3,f0=9, or W=0.1 with the laws jkr, dmt and "
+       "assume these values of parameters, to a factor of 2, e.g. C_H=3e-3,f0=9, or W=0.1 with the "
+       "laws jkr, dmt and "
        "maugis (default: the initial values of the fit file)"},
       {"plan", "--scatter", number(0.0, 1.0),
        "standard deviation of the e of one impact, relative to e", "0.05"},

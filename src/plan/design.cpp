@@ -2,37 +2,90 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace recoil {
 namespace {
 
-constexpr int most_rounds = 5000;        // iterations of the multiplicative algorithm
-constexpr double excess_at_end = 0.002;  // relative excess of the largest d_i over the average
-constexpr double no_share = 1e-9;        // points with a smaller share are omitted
+constexpr int most_admissions = 200;  // of places to the multiplicative algorithm
+constexpr int rounds = 25;            // its iterations between admissions
+// Relative excess of the largest d_i over the average, with one draw and with several.
+constexpr double excess_at_end = 0.002, excess_of_several = 0.01;
+constexpr double admitted_share = 1e-3;  // share of a place when it is admitted
+constexpr double no_share = 1e-4;        // places with a smaller share are left out
 constexpr int most_exchanges = 500;
+constexpr std::size_t tried_exchanges = 12;
 constexpr double worth_exchanging = 1e-6;  // least relative decrease of the sum of the variances
 
-constexpr double singular = 1e-14;  // reciprocal condition
+constexpr double singular = 1e-14;  // ratio of the extreme pivots
 
 using Factor = Eigen::LLT<Eigen::MatrixXd>;
 
 bool is_regular(const Factor& factor) {
-  return factor.info() == Eigen::Success && factor.rcond() > singular;
+  if (factor.info() != Eigen::Success) return false;
+  const auto root = factor.matrixLLT().diagonal();
+  return root.minCoeff() > std::sqrt(singular) * root.maxCoeff();
 }
 
-double sum_of_variances(const Eigen::MatrixXd& information, const Eigen::MatrixXd& asked) {
-  const Factor factor(information);
-  if (!is_regular(factor)) return INFINITY;
-  const double sum = factor.matrixL().solve(asked).squaredNorm();
-  return std::isfinite(sum) ? sum : INFINITY;
+/// ln of `mean_sum_of`, and minus its slopes d_i in the counts.
+struct Criterion {
+  double log_sum = INFINITY;
+  Eigen::VectorXd worth;  ///< empty where M is singular
+};
+
+Criterion criterion_of(const DesignProblems& draws, const std::vector<double>& counts) {
+  Criterion found{0.0, Eigen::VectorXd::Zero(draws.front().rows.rows())};
+  for (const DesignProblem& draw : draws) {
+    const Factor factor(information_of(draw, counts));
+    if (!is_regular(factor)) return {};
+    const Eigen::MatrixXd solved = factor.solve(draw.asked);
+    const double sum = draw.asked.cwiseProduct(solved).sum();
+    if (!(sum > 0.0 && std::isfinite(sum))) return {};
+    found.log_sum += std::log(sum);
+    found.worth += (draw.rows * solved).rowwise().squaredNorm() / sum;
+  }
+  const auto count = static_cast<double>(draws.size());
+  found.log_sum /= count;
+  found.worth /= count;
+  return found;
 }
 
-/// d_i of every point; empty where M is singular.
-Eigen::VectorXd worth_of_points(const DesignProblem& problem, const Eigen::MatrixXd& information) {
-  const Factor factor(information);
-  if (!is_regular(factor)) return {};
-  const Eigen::MatrixXd solved = factor.solve(problem.asked);
-  return (problem.rows * solved).rowwise().squaredNorm();
+std::vector<double> times(std::vector<double> shares, double factor) {
+  for (double& share : shares) share *= factor;
+  return shares;
+}
+
+/// Iterations of the multiplicative algorithm among the places that have a share.
+void multiply(const DesignProblems& draws, double points, std::vector<double>& shares) {
+  std::vector<Eigen::Index> places;
+  std::vector<double> own;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!(shares[i] > 0.0)) continue;
+    places.push_back(static_cast<Eigen::Index>(i));
+    own.push_back(shares[i]);
+  }
+  DesignProblems among = draws;
+  for (DesignProblem& draw : among) draw.rows = draw.rows(places, Eigen::all).eval();
+  for (int round = 0; round < rounds; ++round) {
+    const double total = std::accumulate(own.begin(), own.end(), 0.0);
+    own = times(own, 1.0 / total);
+    const Eigen::VectorXd worth = criterion_of(among, times(own, points)).worth;
+    if (worth.size() == 0) return;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      own[i] *= std::sqrt(worth(static_cast<Eigen::Index>(i)));
+    }
+  }
+  const double total = std::accumulate(own.begin(), own.end(), 0.0);
+  if (!(total > 0.0)) return;
+  double kept = 0.0;
+  for (double& share : own) {
+    share = share > no_share * total ? share : 0.0;
+    kept += share;
+  }
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    shares[static_cast<std::size_t>(places[i])] = own[i] / kept;
+  }
 }
 
 }  // namespace
@@ -42,8 +95,16 @@ std::vector<double> numbers_of(const std::vector<int>& counts) {
 }
 
 Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<double>& counts) {
+  const auto informing = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& n) {
+    return Eigen::MatrixXd(problem.known + rows.transpose() * n.asDiagonal() * rows);
+  };
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] != 0.0) places.push_back(static_cast<Eigen::Index>(i));
+  }
   const Eigen::Map<const Eigen::VectorXd> n(counts.data(), problem.rows.rows());
-  return problem.known + problem.rows.transpose() * n.asDiagonal() * problem.rows;
+  if (places.size() == counts.size()) return informing(problem.rows, n);
+  return informing(problem.rows(places, Eigen::all), n(places));
 }
 
 Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<double>& counts) {
@@ -52,39 +113,36 @@ Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<dou
   return factor.matrixL().solve(problem.asked).colwise().squaredNorm().transpose();
 }
 
-std::vector<double> optimal_shares(const DesignProblem& problem, double points) {
-  const auto count = static_cast<std::size_t>(problem.rows.rows());
-  std::vector<double> shares(count, 1.0 / static_cast<double>(count));
-  std::vector<double> counts(count);
-  for (int round = 0; round < most_rounds; ++round) {
-    for (std::size_t i = 0; i < count; ++i) counts[i] = points * shares[i];
-    const Eigen::VectorXd worth = worth_of_points(problem, information_of(problem, counts));
+double mean_sum_of(const DesignProblems& draws, const std::vector<double>& counts) {
+  double sum = 0.0;
+  for (const DesignProblem& draw : draws) sum += std::log(variances_of(draw, counts).sum());
+  return std::exp(sum / static_cast<double>(draws.size()));
+}
+
+std::vector<double> optimal_shares(const DesignProblems& draws, double points,
+                                   std::vector<double> shares) {
+  const auto count = static_cast<std::size_t>(draws.front().rows.rows());
+  if (shares.empty()) shares.assign(count, 1.0 / static_cast<double>(count));
+  const double excess = draws.size() > 1 ? excess_of_several : excess_at_end;
+  for (int k = 0; k < most_admissions; ++k) {
+    const Eigen::VectorXd worth = criterion_of(draws, times(shares, points)).worth;
     if (worth.size() == 0) break;
-    double average = 0.0;
-    double total = 0.0;
+    const double average =
+        worth.dot(Eigen::Map<const Eigen::VectorXd>(shares.data(), worth.size()));
+    if (!(worth.maxCoeff() > (1.0 + excess) * average)) break;
     for (std::size_t i = 0; i < count; ++i) {
-      const double d = worth(static_cast<Eigen::Index>(i));
-      average += shares[i] * d;
-      shares[i] *= std::sqrt(d);
-      total += shares[i];
+      if (worth(static_cast<Eigen::Index>(i)) > average) shares[i] += admitted_share;
     }
-    if (!(total > 0.0)) break;
-    for (double& share : shares) {
-      share /= total;
-      if (share < no_share) share = 0.0;
-    }
-    if (worth.maxCoeff() < (1.0 + excess_at_end) * average) break;
+    multiply(draws, points, shares);
   }
   return shares;
 }
 
-double least_possible_sum(const DesignProblem& problem, const std::vector<double>& counts) {
-  const Eigen::MatrixXd information = information_of(problem, counts);
-  const Eigen::VectorXd worth = worth_of_points(problem, information);
-  if (worth.size() == 0) return 0.0;
-  const Eigen::Map<const Eigen::VectorXd> n(counts.data(), problem.rows.rows());
-  const double now = sum_of_variances(information, problem.asked);
-  return std::max(0.0, now + n.dot(worth) - n.sum() * worth.maxCoeff());
+double least_possible_sum(const DesignProblems& draws, const std::vector<double>& counts) {
+  const Criterion at = criterion_of(draws, counts);
+  if (at.worth.size() == 0) return 0.0;
+  const Eigen::Map<const Eigen::VectorXd> n(counts.data(), at.worth.size());
+  return std::exp(at.log_sum + n.dot(at.worth) - n.sum() * at.worth.maxCoeff());
 }
 
 std::vector<int> whole_points(const std::vector<double>& shares, int points) {
@@ -114,34 +172,34 @@ std::vector<int> whole_points(const std::vector<double>& shares, int points) {
   return counts;
 }
 
-std::vector<int> after_exchanges(const DesignProblem& problem, std::vector<int> counts) {
-  Eigen::MatrixXd information = information_of(problem, numbers_of(counts));
-  double now = sum_of_variances(information, problem.asked);
-  const auto count = static_cast<Eigen::Index>(counts.size());
-  const auto square = [&](Eigen::Index i) -> Eigen::MatrixXd {
-    return problem.rows.row(i).transpose() * problem.rows.row(i);
+std::vector<int> after_exchanges(const DesignProblems& draws, std::vector<int> counts) {
+  struct Exchange {
+    double gain = 0.0;  // of the criterion, to first order
+    std::size_t from = 0, to = 0;
   };
   for (int round = 0; round < most_exchanges; ++round) {
-    double best = now;
-    Eigen::Index from = -1;
-    Eigen::Index to = -1;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      if (counts[static_cast<std::size_t>(i)] == 0) continue;
-      const Eigen::MatrixXd without = information - square(i);
-      for (Eigen::Index j = 0; j < count; ++j) {
-        if (j == i) continue;
-        const double sum = sum_of_variances(without + square(j), problem.asked);
-        if (sum >= best) continue;
-        best = sum;
-        from = i;
-        to = j;
+    const Criterion now = criterion_of(draws, numbers_of(counts));
+    if (now.worth.size() == 0) break;
+    const auto worth = [&](std::size_t i) { return now.worth(static_cast<Eigen::Index>(i)); };
+    std::vector<Exchange> all;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] == 0) continue;
+      for (std::size_t j = 0; j < counts.size(); ++j) {
+        if (worth(j) > worth(i)) all.push_back({worth(j) - worth(i), i, j});
       }
     }
-    if (from < 0 || (std::isfinite(now) && !(best < (1.0 - worth_exchanging) * now))) break;
-    --counts[static_cast<std::size_t>(from)];
-    ++counts[static_cast<std::size_t>(to)];
-    information = information_of(problem, numbers_of(counts));
-    now = best;
+    const auto tried =
+        all.begin() + static_cast<std::ptrdiff_t>(std::min(tried_exchanges, all.size()));
+    std::ranges::partial_sort(all, tried, std::greater{}, &Exchange::gain);
+    const auto made = std::find_if(all.begin(), tried, [&](const Exchange& exchange) {
+      std::vector<int> next = counts;
+      --next[exchange.from];
+      ++next[exchange.to];
+      return std::log(mean_sum_of(draws, numbers_of(next))) < now.log_sum - worth_exchanging;
+    });
+    if (made == tried) break;
+    --counts[made->from];
+    ++counts[made->to];
   }
   return counts;
 }

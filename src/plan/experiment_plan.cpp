@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -19,15 +19,27 @@ namespace recoil {
 namespace {
 
 constexpr int grid_velocities = 48;  // velocities of each diameter
-constexpr int fewest_points = 10;    // least number of points if the wanted error decides
+// With many diameters fewer draws are taken: draws times places.
+constexpr std::size_t most_outlooks = 40000, fewest_draws = 25;
+constexpr int fewest_points = 10;  // least number of points if the wanted error decides
 // The default range of velocities, relative to the smallest and the largest capture velocity.
 constexpr double below_capture = 0.8, above_capture = 30.0;
 // A plan is refused if this number of points leaves an error of 100 %.
 constexpr double hopeless_points = 1e6;
 constexpr double least_share = 0.05;  // least share in LearntAt
-// Fraction of the information of evenly spaced points that is added in the plan for a single
-// quantity, because its best experiment can leave other parameters undetermined.
-constexpr double share_of_everywhere = 1e-9;
+constexpr double worst_share = 0.95;  // share of the draws in which an error is at most the worst
+// The part of one evenly spaced point that is taken as known, because the best experiment for a
+// single quantity can leave other parameters undetermined.
+constexpr double share_of_everywhere = 1e-6;
+
+/// The value that a share `p` of `values` does not exceed.
+double quantile(std::vector<double> values, double p) {
+  const auto place = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + place);
+  return values[static_cast<std::size_t>(place)];
+}
+
+double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
 /// The velocity rounded to three digits.
 double as_set(double velocity) {
@@ -96,78 +108,39 @@ PlannedScatter planned_scatter(const PlanOptions& options, const NoiseSpec& nois
   return scatter;
 }
 
-/// `count` velocities, evenly spaced in ln V.
-std::vector<double> spaced(double from, double to, int count) {
+/// `grid_velocities`, evenly spaced in ln V; fewer if some round to the same velocity.
+std::vector<double> spaced(double from, double to) {
   std::vector<double> velocities;
-  for (int k = 0; k < count; ++k) {
-    const double share = count > 1 ? static_cast<double>(k) / (count - 1) : 0.5;
-    velocities.push_back(as_set(from * std::pow(to / from, share)));
+  for (int k = 0; k < grid_velocities; ++k) {
+    velocities.push_back(as_set(from * std::pow(to / from, k / (grid_velocities - 1.0))));
   }
+  velocities.erase(std::unique(velocities.begin(), velocities.end()), velocities.end());
   return velocities;
-}
-
-/// Possible points, and the number of points to measure at each.
-struct PlacedPoints {
-  PossiblePoints points;
-  std::vector<int> counts;
-};
-
-void add_settings(const PlacedPoints& placed, std::vector<PlannedSetting>& settings) {
-  for (std::size_t i = 0; i < placed.counts.size(); ++i) {
-    if (placed.counts[i] == 0) continue;
-    const PointConditions& at = placed.points.at[i];
-    const PointOutlook& outlook = placed.points.outlook[i];
-    const auto same = std::ranges::find_if(settings, [&](const PlannedSetting& other) {
-      return other.dataset == at.dataset && other.diameter == at.diameter &&
-             other.velocity == at.velocity;
-    });
-    if (same != settings.end()) {
-      same->points += placed.counts[i];
-      continue;
-    }
-    settings.push_back({at.dataset, at.diameter, at.velocity, placed.counts[i], outlook.restitution,
-                        outlook.sd, outlook.captured});
-  }
-}
-
-/// All planned points as settings, sorted by dataset, diameter and velocity.
-std::vector<PlannedSetting> settings_of(const std::vector<PlacedPoints>& all) {
-  std::vector<PlannedSetting> settings;
-  for (const PlacedPoints& placed : all) add_settings(placed, settings);
-  std::ranges::sort(settings, [](const PlannedSetting& one, const PlannedSetting& other) {
-    return std::tie(one.dataset, one.diameter, one.velocity) <
-           std::tie(other.dataset, other.diameter, other.velocity);
-  });
-  for (PlannedSetting& setting : settings) setting.sd /= std::sqrt(setting.points);
-  return settings;
-}
-
-std::vector<double> counts_of(const std::vector<PlannedSetting>& settings) {
-  std::vector<double> counts;
-  for (const PlannedSetting& setting : settings) counts.push_back(setting.points);
-  return counts;
 }
 
 /// Computes `settings`, `quantities` and the totals of a plan.
 class Planner {
  public:
-  Planner(const FitSpec& spec, ExperimentPlan& plan)
-      : plan_(plan), sizes_(planned_sizes(plan.model, plan.theta, plan.datasets)) {
+  /// @param draws values of theta, those of the plan first
+  Planner(const FitSpec& spec, const std::vector<std::vector<double>>& draws, ExperimentPlan& plan)
+      : plan_(plan) {
+    std::size_t places = 0;
+    for (const Dataset& dataset : plan.datasets) places += dataset.points.size() * grid_velocities;
+    const std::size_t count = std::min(
+        draws.size(), std::max(fewest_draws, most_outlooks / std::max<std::size_t>(1, places)));
+    std::vector<std::vector<PlannedSize>> sizes;
+    for (std::size_t k = 0; k < count; ++k) {
+      sizes.push_back(planned_sizes(plan.model, draws[k], plan.datasets));
+    }
+    sizes_ = sizes.front();
     complete_range(spec, sizes_, plan.options);
-    parameters_ = planned_parameters(plan.model, plan.theta);
     for (const Dataset& dataset : plan.datasets) {
       scatter_.push_back(planned_scatter(plan.options, spec.noise, dataset));
     }
+    velocities_ = spaced(plan.options.slowest, plan.options.fastest);
     list_quantities(spec);
-    std::vector<PointConditions> at;
-    for (const PlannedSize& size : sizes_) {
-      for (const double v : spaced(plan.options.slowest, plan.options.fastest, grid_velocities)) {
-        at.push_back({size.dataset, size.diameter, v, size.series});
-      }
-    }
-    grid_ = possible(std::move(at));
-    problem_ = {grid_.rows(), parameters_.known, asked_};
-    require_determined();
+    for (std::size_t k = 0; k < count; ++k) add_draw(draws[k], sizes[k]);
+    plan.draws = static_cast<int>(draws_.size());
   }
 
   /// Plans the requested number of points, or the fewest that give the wanted error.
@@ -175,51 +148,54 @@ class Planner {
     const int events = plan_.options.events;
     const int free = plan_.model.free_count();
     if (plan_.options.impacts > 0) {
-      plan_.points = plan_.options.impacts / events;
-      if (plan_.points < free) {
-        throw InputError({},
-                         fmt::format("{} impacts make {} points of {}", plan_.options.impacts,
-                                     plan_.points, events),
-                         fmt::format("{} parameters are free", free),
-                         "plan more impacts, or fewer for one point (--events)");
+      const int points = plan_.options.impacts / events;
+      if (points < free) {
+        throw InputError(
+            {},
+            fmt::format("{} impacts make {} points of {}", plan_.options.impacts, points, events),
+            fmt::format("{} parameters are free", free),
+            "plan more impacts, or fewer for one point (--events)");
       }
-      plan_.settings = settings_for(plan_.points);
+      take(points);
     } else {
       const int most = most_planned_impacts / events;
       find_fewest_points(std::min(most, std::max(fewest_points, 2 * free)), most);
     }
     plan_.impacts = plan_.points * events;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (counts_[i] == 0) continue;
+      const PointConditions& at = grid_.at[i];
+      const PointOutlook& outlook = grid_.outlook[i];
+      plan_.settings.push_back({at.dataset, at.diameter, at.velocity, counts_[i],
+                                outlook.restitution, outlook.sd / std::sqrt(counts_[i]),
+                                outlook.captured});
+    }
   }
 
   /// Computes the errors of all quantities under the chosen settings.
   void find_errors() {
-    const DesignProblem made = problem_of(plan_.settings);
-    const std::vector<double> counts = counts_of(plan_.settings);
-    const PlacedPoints even = evenly(plan_.points);
-    const DesignProblem plain = {even.points.rows(), parameters_.known, asked_};
-    const std::vector<double> even_counts = numbers_of(even.counts);
-    const Eigen::VectorXd variances = variances_of(made, counts);
-    const Eigen::VectorXd plain_variances = variances_of(plain, even_counts);
+    const std::vector<double> counts = numbers_of(counts_);
+    const std::vector<double> even = numbers_of(evenly(plan_.points));
     const double points = plan_.points;
     const auto impacts = [&](const std::optional<double>& factor) {
       return factor ? std::optional(*factor * points * plan_.options.events) : std::nullopt;
     };
-    plan_.reached = variances.maxCoeff() <= wanted_variance();
-    std::vector<double> best = optimal_shares(problem_, points);
+    std::vector<double> best = optimal_shares(draws_, points, shares_);
     for (double& count : best) count *= points;
-    plan_.efficiency = least_possible_sum(problem_, best) / variances.sum();
-    const std::size_t places = grid_.at.size();
-    const Eigen::MatrixXd everywhere = information_of(
-        problem_,
-        std::vector<double>(places, share_of_everywhere * points / static_cast<double>(places)));
-    for (std::size_t k = 0; k < plan_.quantities.size(); ++k) {
-      const auto q = static_cast<Eigen::Index>(k);
-      PlannedQuantity& quantity = plan_.quantities[k];
-      quantity.error = std::sqrt(variances(q));
-      quantity.plain_error = std::sqrt(plain_variances(q));
-      quantity.impacts = impacts(factor_for(made, counts, q));
-      quantity.plain_impacts = impacts(factor_for(plain, even_counts, q));
-      const DesignProblem alone = {problem_.rows, everywhere, asked_.col(q)};
+    plan_.efficiency = least_possible_sum(draws_, best) / mean_sum_of(draws_, counts);
+    plan_.reached = true;
+    const Variances variances = variances_under(draws_, counts);
+    const Variances even_variances = variances_under(draws_, even);
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+      PlannedQuantity& quantity = plan_.quantities[q];
+      quantity.error = std::sqrt(median(variances[q]));
+      quantity.worst_error = std::sqrt(quantile(variances[q], worst_share));
+      quantity.plain_error = std::sqrt(median(even_variances[q]));
+      plan_.reached = plan_.reached && quantity.error <= plan_.options.error;
+      quantity.impacts = impacts(factor_for(draws_, counts, q));
+      quantity.plain_impacts = impacts(factor_for(draws_, even, q));
+      DesignProblems alone = {draws_.front()};
+      alone.front().asked = draws_.front().asked.col(static_cast<Eigen::Index>(q));
       std::vector<double> shares = optimal_shares(alone, points);
       quantity.learnt_at = places_of(shares);
       for (double& share : shares) share *= points;
@@ -230,181 +206,207 @@ class Planner {
  private:
   double wanted_variance() const { return plan_.options.error * plan_.options.error; }
 
-  PossiblePoints possible(std::vector<PointConditions> at) const {
-    return possible_points(plan_.model, plan_.theta, parameters_, std::move(at), scatter_);
+  void take(int points) {
+    plan_.points = points;
+    counts_ = counts_for(points);
   }
 
-  /// Bisects between `low` and `most` points, to 2 %.
-  void find_fewest_points(int low, int most) {
-    const auto take = [&](int points) {
-      plan_.points = points;
-      plan_.settings = settings_for(points);
-    };
-    take(low);
-    if (good(plan_.settings)) return;
+  /// Takes more points, from `few` on, until all quantities that `most` points determine have the
+  /// wanted error.
+  void find_fewest_points(int few, int most) {
     take(most);
     leave_out_hopeless();
-    if (std::vector<PlannedSetting> few = settings_for(low); good(few)) {
-      take(low);
-      return;
+    if (excess() > 1.0) return;
+    int low = few - 1;
+    take(few);
+    for (double over = excess(); over > 1.0; over = excess()) {
+      low = plan_.points;
+      take(static_cast<int>(std::clamp(std::ceil(low * over), low + 1.0, most * 1.0)));
     }
-    while (good(plan_.settings) && plan_.points - low > std::max(1, low / 50)) {
-      const int middle = static_cast<int>(std::sqrt(static_cast<double>(low) * plan_.points));
-      const int next = std::clamp(middle, low + 1, plan_.points - 1);
-      std::vector<PlannedSetting> fewer = settings_for(next);
-      if (good(fewer)) {
-        plan_.points = next;
-        plan_.settings = std::move(fewer);
-      } else {
-        low = next;
-      }
+    while (plan_.points - low > std::max(1, low / 50)) {
+      const int high = plan_.points;
+      std::vector<int> counts = counts_;
+      take((low + high) / 2);
+      if (excess() <= 1.0) continue;
+      low = plan_.points;
+      plan_.points = high;
+      counts_ = std::move(counts);
     }
   }
 
-  /// Points evenly spaced in ln V above the capture velocity, with equal numbers for each diameter.
-  /// Diameters that are captured at every velocity are omitted.
-  PlacedPoints evenly(int points) const {
-    std::vector<const PlannedSize*> returning;
-    const double fastest = plan_.options.fastest;
-    for (const PlannedSize& size : sizes_) {
-      if (!size.capture.found || size.capture.value < fastest) returning.push_back(&size);
+  /// The counts of points evenly spaced in ln V above the capture velocity, with equal numbers for
+  /// each diameter. Diameters that are captured at every velocity are omitted.
+  std::vector<int> evenly(int points) const {
+    std::vector<std::vector<std::size_t>> returning;  // the places of each size
+    for (std::size_t s = 0; s < sizes_.size(); ++s) {
+      const CaptureVelocity& capture = sizes_[s].capture;
+      std::vector<std::size_t> places;
+      for (std::size_t v = 0; v < velocities_.size(); ++v) {
+        if (capture.found && velocities_[v] < capture.value) continue;
+        places.push_back(s * velocities_.size() + v);
+      }
+      if (!places.empty()) returning.push_back(std::move(places));
     }
-    std::vector<PointConditions> at;
-    std::vector<int> counts;
+    std::vector<int> counts(sizes_.size() * velocities_.size(), 0);
     const auto sizes = static_cast<int>(returning.size());
-    for (int k = 0; k < sizes; ++k) {
-      const PlannedSize& size = *returning[static_cast<std::size_t>(k)];
-      const double from =
-          std::max(plan_.options.slowest, size.capture.found ? size.capture.value : 0.0);
-      const int count = points / sizes + (k < points % sizes ? 1 : 0);
-      const std::vector<double> velocities =
-          spaced(from, fastest, std::min(count, grid_velocities));
-      const auto places = static_cast<int>(velocities.size());
-      for (int i = 0; i < places; ++i) {
-        at.push_back(
-            {size.dataset, size.diameter, velocities[static_cast<std::size_t>(i)], size.series});
-        counts.push_back(count / places + (i < count % places ? 1 : 0));
+    for (int s = 0; s < sizes; ++s) {
+      const std::vector<std::size_t>& places = returning[static_cast<std::size_t>(s)];
+      const int count = points / sizes + (s < points % sizes ? 1 : 0);
+      for (int i = 0; i < count; ++i) {
+        const double share = count > 1 ? i / (count - 1.0) : 0.5;
+        ++counts[places[static_cast<std::size_t>(
+            std::round(share * static_cast<double>(places.size() - 1)))]];
       }
     }
-    return {possible(std::move(at)), std::move(counts)};
-  }
-
-  void ask(PlannedQuantity quantity, const Eigen::VectorXd& column) {
-    plan_.quantities.push_back(std::move(quantity));
-    asked_.conservativeResize(column.size(), asked_.cols() + 1);
-    asked_.col(asked_.cols() - 1) = column;
+    return counts;
   }
 
   void list_quantities(const FitSpec& spec) {
-    const std::size_t count = parameters_.slots.size();
-    const auto p = static_cast<Eigen::Index>(count);
-    asked_.resize(p, 0);
-    for (std::size_t k = 0; k < count; ++k) {
-      const ParameterSlot& slot = plan_.model.slots[parameters_.slots[k]];
-      const double value = plan_.theta[parameters_.slots[k]];
-      if (!slot.free || value == 0.0) continue;
-      PlannedQuantity quantity;
+    for (std::size_t j = 0; j < plan_.theta.size(); ++j) {
+      const ParameterSlot& slot = plan_.model.slots[j];
+      if (!slot.free || plan_.theta[j] == 0.0) continue;
+      PlannedQuantity& quantity = plan_.quantities.emplace_back();
       quantity.label = slot.label();
       quantity.unit = slot.parameter->unit;
-      quantity.value = value;
-      ask(std::move(quantity), Eigen::VectorXd::Unit(p, static_cast<Eigen::Index>(k)));
+      quantity.value = plan_.theta[j];
+      place_.push_back(j);
     }
     if (plan_.quantities.empty()) {
       throw InputError({spec.file.string()}, "no parameter is free and other than 0",
                        "then there is nothing to determine",
                        "free one under [parameters], or assume another value");
     }
-    for (const PlannedSize& size : sizes_) {
-      if (!size.capture.found) continue;
-      PlannedQuantity quantity;
+    for (std::size_t s = 0; s < sizes_.size(); ++s) {
+      if (!sizes_[s].capture.found) continue;
+      PlannedQuantity& quantity = plan_.quantities.emplace_back();
       quantity.unit = "m/s";
-      quantity.dataset = size.dataset;
-      quantity.diameter = size.diameter;
-      quantity.value = size.capture.value;
-      Eigen::VectorXd column(p);
-      for (std::size_t k = 0; k < count; ++k) {
-        column(static_cast<Eigen::Index>(k)) =
-            size.capture.gradient[parameters_.slots[k]] * parameters_.unit[k] / size.capture.value;
-      }
-      ask(std::move(quantity), column);
+      quantity.dataset = sizes_[s].dataset;
+      quantity.diameter = sizes_[s].diameter;
+      quantity.value = sizes_[s].capture.value;
+      place_.push_back(s);
     }
   }
 
-  void require_determined() const {
-    const auto count = static_cast<std::size_t>(problem_.rows.rows());
+  /// The quantities as functions of the parameters, one column each; empty if one is not known.
+  Eigen::MatrixXd asked_under(const PlannedParameters& parameters,
+                              const std::vector<PlannedSize>& sizes) const {
+    const std::size_t count = parameters.slots.size();
+    Eigen::MatrixXd asked = Eigen::MatrixXd::Zero(
+        static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(plan_.quantities.size()));
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+      const bool is_parameter = plan_.quantities[q].is_parameter();
+      if (!is_parameter && !sizes[place_[q]].capture.found) return {};
+      for (std::size_t k = 0; k < count; ++k) {
+        double& slope = asked(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(q));
+        if (is_parameter) {
+          slope = parameters.slots[k] == place_[q] ? 1.0 : 0.0;
+        } else {
+          const CaptureVelocity& capture = sizes[place_[q]].capture;
+          slope = capture.gradient[parameters.slots[k]] * parameters.unit[k] / capture.value;
+        }
+      }
+    }
+    return asked;
+  }
+
+  /// Adds the design problem of one draw of theta. A draw under which no experiment determines the
+  /// parameters cannot tell experiments apart: the first throws, the others are left out.
+  void add_draw(const std::vector<double>& theta, const std::vector<PlannedSize>& sizes) {
+    const PlannedParameters parameters = planned_parameters(plan_.model, theta);
+    const Eigen::MatrixXd asked = asked_under(parameters, sizes);
+    if (asked.size() == 0) return;
+    std::vector<PointConditions> at;
+    for (const PlannedSize& size : sizes_) {
+      for (const double v : velocities_)
+        at.push_back({size.dataset, size.diameter, v, size.series});
+    }
+    const bool first = draws_.empty();
+    try {
+      PossiblePoints grid =
+          possible_points(plan_.model, theta, parameters, std::move(at), scatter_);
+      DesignProblem problem = {grid.rows(), parameters.known, asked};
+      require_determined(problem);
+      if (first) grid_ = std::move(grid);
+      draws_.push_back(std::move(problem));
+    } catch (const ComputationError&) {
+      if (first) throw;
+    }
+  }
+
+  /// Also adds a trace of information of every place, because the best experiment for a single
+  /// quantity can leave other parameters undetermined.
+  void require_determined(DesignProblem& problem) const {
+    const auto count = static_cast<std::size_t>(problem.rows.rows());
     const Eigen::VectorXd variances = variances_of(
-        problem_, std::vector<double>(count, hopeless_points / static_cast<double>(count)));
+        problem, std::vector<double>(count, hopeless_points / static_cast<double>(count)));
     std::vector<std::string> lost;
     for (Eigen::Index q = 0; q < variances.size(); ++q) {
       const PlannedQuantity& quantity = plan_.quantities[static_cast<std::size_t>(q)];
       if (!(variances(q) < 1.0) && quantity.is_parameter()) lost.push_back(quantity.label);
     }
-    if (lost.empty()) return;
-    throw ComputationError(fmt::format(
-        "a million points between {:g} and {:g} m/s would not determine {}; widen --velocity, "
-        "add a --diameter, or fix a parameter in the fit file",
-        plan_.options.slowest, plan_.options.fastest, fmt::join(lost, " and ")));
+    if (!lost.empty()) {
+      throw ComputationError(fmt::format(
+          "a million points between {:g} and {:g} m/s would not determine {}; widen --velocity, "
+          "add a --diameter, or fix a parameter in the fit file",
+          plan_.options.slowest, plan_.options.fastest, fmt::join(lost, " and ")));
+    }
+    problem.known = information_of(
+        problem, std::vector<double>(count, share_of_everywhere / static_cast<double>(count)));
   }
 
-  /// The settings of `points` points: an evenly spaced share, and the best choice for the others.
-  std::vector<PlannedSetting> settings_for(int points) const {
+  /// The counts of `points` points: an evenly spaced share, and the best choice for the others.
+  std::vector<int> counts_for(int points) {
     const int checks = static_cast<int>(std::round(plan_.options.checks * points));
-    const PlacedPoints checking = evenly(checks);
-    DesignProblem rest = problem_;
-    rest.known += information_of(
-        {checking.points.rows(),
-         Eigen::MatrixXd::Zero(checking.points.slopes.cols(), checking.points.slopes.cols()),
-         {}},
-        numbers_of(checking.counts));
-    const std::vector<int> counts =
-        after_exchanges(rest, whole_points(optimal_shares(rest, points - checks), points - checks));
-    const PlacedPoints plain = evenly(points);
-    const double sum = variances_of(rest, numbers_of(counts)).sum();
-    const double sum_of_plain =
-        variances_of({plain.points.rows(), parameters_.known, asked_}, numbers_of(plain.counts))
-            .sum();
-    if (!(sum <= sum_of_plain)) return settings_of({plain});
-    return settings_of({{grid_, counts}, checking});
+    const std::vector<int> checking = evenly(checks);
+    DesignProblems rest = draws_;
+    for (DesignProblem& draw : rest) draw.known = information_of(draw, numbers_of(checking));
+    shares_ = optimal_shares(rest, points - checks, shares_);
+    std::vector<int> counts = after_exchanges(rest, whole_points(shares_, points - checks));
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += checking[i];
+    return counts;
   }
 
-  DesignProblem problem_of(const std::vector<PlannedSetting>& settings) const {
-    std::vector<PointConditions> at;
-    for (const PlannedSetting& setting : settings) {
-      at.push_back({setting.dataset, setting.diameter, setting.velocity, series_of(setting)});
+  using Variances = std::vector<std::vector<double>>;  // [quantities][draws]
+
+  static Variances variances_under(const DesignProblems& draws, const std::vector<double>& counts) {
+    Variances all(static_cast<std::size_t>(draws.front().asked.cols()));
+    for (const DesignProblem& draw : draws) {
+      const Eigen::VectorXd found = variances_of(draw, counts);
+      for (std::size_t q = 0; q < all.size(); ++q) {
+        all[q].push_back(found(static_cast<Eigen::Index>(q)));
+      }
     }
-    return {possible(std::move(at)).rows(), parameters_.known, asked_};
+    return all;
   }
 
-  std::size_t series_of(const PlannedSetting& setting) const {
-    for (const PlannedSize& size : sizes_) {
-      if (size.dataset == setting.dataset && size.diameter == setting.diameter) return size.series;
+  /// The largest median variance of a quantity that the number of points decides about, over the
+  /// wanted one.
+  double excess() const {
+    double most = 0.0;
+    const Variances variances = variances_under(draws_, numbers_of(counts_));
+    for (std::size_t q = 0; q < variances.size(); ++q) {
+      if (!hopeless_.contains(q)) most = std::max(most, median(variances[q]));
     }
-    return PointConditions::no_series;
-  }
-
-  /// Do all quantities that the number of points decides about have the wanted error?
-  bool good(const std::vector<PlannedSetting>& settings) const {
-    const Eigen::VectorXd variances = variances_of(problem_of(settings), counts_of(settings));
-    return (sought_.size() == 0 ? variances : variances.cwiseProduct(sought_)).maxCoeff() <=
-           wanted_variance();
+    return most / wanted_variance();
   }
 
   /// Leaves out the quantities that the settings of the plan, the most that there can be, do not
   /// determine, unless these are all.
   void leave_out_hopeless() {
-    const Eigen::VectorXd variances =
-        variances_of(problem_of(plan_.settings), counts_of(plan_.settings));
-    const Eigen::VectorXd kept = (variances.array() <= wanted_variance()).cast<double>();
-    if (kept.sum() > 0.0) sought_ = kept;
+    const Variances variances = variances_under(draws_, numbers_of(counts_));
+    for (std::size_t q = 0; q < variances.size(); ++q) {
+      if (!(median(variances[q]) <= wanted_variance())) hopeless_.insert(q);
+    }
+    if (hopeless_.size() == variances.size()) hopeless_.clear();
   }
 
-  /// The factor on `counts` that gives quantity `q` the wanted error; nullopt if there is none.
-  std::optional<double> factor_for(const DesignProblem& problem, const std::vector<double>& counts,
-                                   Eigen::Index q) const {
+  /// The factor on `counts` that gives a quantity the wanted error; nullopt if there is none.
+  std::optional<double> factor_for(const DesignProblems& draws, const std::vector<double>& counts,
+                                   std::size_t q) const {
     const auto enough = [&](double factor) {
       std::vector<double> scaled = counts;
       for (double& count : scaled) count *= factor;
-      return variances_of(problem, scaled)(q) <= wanted_variance();
+      return median(variances_under(draws, scaled)[q]) <= wanted_variance();
     };
     double few = 1e-6;
     double many = 1e6;
@@ -421,7 +423,7 @@ class Planner {
     std::vector<LearntAt> places;
     bool open = false;
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      const bool new_size = i % grid_velocities == 0;
+      const bool new_size = i % velocities_.size() == 0;
       if (new_size || !(shares[i] > 0.1 * least_share)) open = false;
       if (!(shares[i] > 0.1 * least_share)) continue;
       if (!open) places.push_back({grid_.at[i].dataset, grid_.at[i].diameter, 0.0, 0.0});
@@ -439,12 +441,14 @@ class Planner {
 
   ExperimentPlan& plan_;
   std::vector<PlannedSize> sizes_;
-  PlannedParameters parameters_;
   std::vector<PlannedScatter> scatter_;  // per dataset
-  Eigen::MatrixXd asked_;                // one column for each quantity
-  Eigen::VectorXd sought_;  ///< 1: the quantity decides about the number of points; empty: all do
-  PossiblePoints grid_;
-  DesignProblem problem_;  // design problem of the grid
+  std::vector<double> velocities_;       // of every size
+  std::vector<std::size_t> place_;       // of each quantity: its slot or its size
+  std::set<std::size_t> hopeless_;       // quantities that do not decide the number of points
+  PossiblePoints grid_;                  // every velocity of every size
+  DesignProblems draws_;                 // for the grid
+  std::vector<double> shares_;           // of the grid, the last optimal ones
+  std::vector<int> counts_;              // of the grid
 };
 
 /// Puts one point for each setting into the datasets of the plan, with the expected results.
@@ -510,14 +514,14 @@ std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,
 }
 
 ExperimentPlan plan_experiment(const FitSpec& spec, std::vector<Dataset> datasets,
-                               const std::vector<double>& theta, PlanOptions options) {
+                               const std::vector<std::vector<double>>& draws, PlanOptions options) {
   ExperimentPlan plan;
   plan.fit = spec.id;
   plan.options = std::move(options);
   plan.model = make_model(spec, datasets);
-  plan.theta = theta;
+  plan.theta = draws.front();
   plan.datasets = std::move(datasets);
-  Planner planner(spec, plan);
+  Planner planner(spec, draws, plan);
   planner.choose_settings();
   planner.find_errors();
   std::vector<double> diameters;

@@ -54,12 +54,15 @@ struct PlannedQuantity {
   std::string label;  ///< name of a parameter; empty for a capture velocity
   std::string unit;
   std::size_t dataset = 0;
-  double diameter = 0.0;     ///< of a capture velocity [m]
-  double value = 0.0;        ///< assumed value, or derived from the assumed parameters [unit]
-  double error = 0.0;        ///< relative standard error under the plan [1]
-  double plain_error = 0.0;  ///< the same for equally many points evenly spaced in ln V [1]
-  /// Impacts for the wanted error: in the proportions of the plan, evenly spaced, and if this were
-  /// the only quantity. nullopt if no number is enough.
+  double diameter = 0.0;  ///< of a capture velocity [m]
+  double value = 0.0;     ///< assumed value, or derived from the assumed parameters [unit]
+  /// Relative standard error under the plan: the median over the draws, and the 95 % quantile [1].
+  double error = 0.0, worst_error = 0.0;
+  /// The median for equally many points evenly spaced in ln V [1].
+  double plain_error = 0.0;
+  /// Impacts for the wanted error: in the proportions of the plan, evenly spaced (both as the
+  /// median over the draws), and if this were the only quantity and the assumed values were right.
+  /// nullopt if no number is enough.
   std::optional<double> impacts, plain_impacts, alone_impacts;
   std::vector<LearntAt> learnt_at;  ///< the largest share first
 
@@ -73,13 +76,14 @@ struct ExperimentPlan {
   std::vector<Dataset> datasets;  ///< with one point for each setting
   ImpactModel model;
   std::vector<double> theta;  ///< assumed parameters [slots]
+  int draws = 0;              ///< number of draws of the parameters that it was chosen for
   std::vector<PlannedSetting> settings;
   std::vector<PlannedQuantity> quantities;
   int points = 0;
   int impacts = 0;
-  bool reached = false;  ///< every quantity has the wanted error
-  /// A lower bound of the efficiency: the lower bound of the sum of relative variances for any
-  /// plan, over the sum of this plan [1].
+  bool reached = false;  ///< every quantity has the wanted error in at least half of the draws
+  /// A lower bound of the efficiency: the lower bound of the mean sum of relative variances
+  /// (`mean_sum_of`) for any plan, over that of this plan [1].
   double efficiency = 0.0;
 };
 
@@ -93,13 +97,17 @@ std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,
 
 /// The points (V, d) that minimise the sum of the relative variances of all free parameters and of
 /// the capture velocity of every diameter, chosen from 48 velocities of each diameter. Variances
-/// are linearised at `theta`. The share `checks` of the points is evenly spaced in ln V. If evenly
-/// spacing all points gives a smaller sum, the plan does that.
+/// are linearised at each of `draws`, and the plan minimises their geometric mean over the draws
+/// (`mean_sum_of`): it also serves if the assumed values are wrong. The share `checks` of the
+/// points is evenly spaced in ln V.
 /// @param datasets of `datasets_to_plan`
+/// @param draws values of theta [slots]: first the assumed ones, see `drawn_values`. A further draw
+/// is left out if no experiment determines its parameters, or if they are many: with more than four
+/// diameters, only so many are taken that draws times places are 40000, but at least 25.
 /// @param options plan options; velocities are needed if `datasets` had no points of their own
 /// @throws InputError if no parameter is free or no velocity is known
 /// @throws ComputationError if no number of points determines a parameter
 ExperimentPlan plan_experiment(const FitSpec& spec, std::vector<Dataset> datasets,
-                               const std::vector<double>& theta, PlanOptions options);
+                               const std::vector<std::vector<double>>& draws, PlanOptions options);
 
 }  // namespace recoil

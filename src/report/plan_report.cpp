@@ -56,14 +56,17 @@ Sentence unreached_words(const ExperimentPlan& plan, const PlannedQuantity& quan
 Paragraph plan_answer(const ExperimentPlan& plan) {
   constexpr std::size_t most_named = 4;
   std::vector<Sentence> reached, others;
-  double worst = 0.0, worst_reached = 0.0;
+  double worst = 0.0, worst_reached = 0.0;  // expected errors
+  double worst_case = 0.0, worst_case_reached = 0.0;
   for (const PlannedQuantity& quantity : plan.quantities) {
     worst = std::max(worst, quantity.error);
+    worst_case = std::max(worst_case, quantity.worst_error);
     if (quantity.error > plan.options.error) {
       others.push_back(unreached_words(plan, quantity));
     } else {
       reached.push_back(name_of_quantity(plan, quantity));
       worst_reached = std::max(worst_reached, quantity.error);
+      worst_case_reached = std::max(worst_case_reached, quantity.worst_error);
     }
   }
   const bool none = reached.empty();
@@ -74,6 +77,10 @@ Paragraph plan_answer(const ExperimentPlan& plan) {
        : reached.size() > most_named ? Sentence("the rest")
                                      : join(reached, ", ")) +
       say(" to {} or better", text_of(none ? worst : worst_reached, in_percent(significant(2))));
+  if (plan.draws > 1) {
+    text += say(" (at worst {})",
+                text_of(none ? worst_case : worst_case_reached, in_percent(significant(2))));
+  }
   text += none ? say("; the wanted error was {}.", wanted) : say(", as wanted ({}).", wanted);
   for (std::size_t k = 0; k < std::min(others.size(), most_named); ++k) text += " " + others[k];
   return {text, true};
@@ -195,13 +202,16 @@ double worst_capture(const ExperimentPlan& plan) {
 Table errors_table(const ExperimentPlan& plan, bool folded) {
   Table table;
   table.caption =
-      say("Expected standard errors of this plan and of as many points evenly spaced in ln {V} "
-          "above capture; impacts for {:.3g} %: with this plan, {}",
-          100.0 * plan.options.error,
-          folded ? "and evenly spaced" : "evenly spaced, and with a plan for this quantity alone");
-  table.columns = {{"quantity"},    {"assumed"}, {"unit"},           {"plan", "%"},
-                   {"evenly", "%"}, {"impacts"}, {"impacts evenly"}, {"impacts alone"}};
-  if (folded) table.columns.pop_back();
+      say("Standard errors of this plan, expected and at worst (median and 95 % quantile of {} "
+          "draws of the parameters), and of as many points evenly spaced in ln {V} above capture; "
+          "impacts "
+          "for {:.3g} %: with this plan{}",
+          plan.draws, 100.0 * plan.options.error,
+          folded ? "" : ", evenly spaced, and with a plan for this quantity alone");
+  table.columns = {{"quantity"},  {"assumed"},        {"unit"},
+                   {"plan", "%"}, {"worst", "%"},     {"evenly", "%"},
+                   {"impacts"},   {"impacts evenly"}, {"impacts alone"}};
+  if (folded) table.columns.resize(7);
   const Notation two_digits = in_percent(significant(2), "");
   constexpr std::ptrdiff_t many = 5;
   const auto captures =
@@ -215,11 +225,13 @@ Table errors_table(const ExperimentPlan& plan, bool folded) {
       shown = true;
       name += say(" (worst of {})", captures);
     }
-    table.rows.push_back({name, Number{quantity.value, significant(4)}, Sentence(quantity.unit),
-                          Number{quantity.error, two_digits},
-                          Number{quantity.plain_error, two_digits}, impacts_cell(quantity.impacts),
-                          impacts_cell(quantity.plain_impacts)});
-    if (!folded) table.rows.back().push_back(impacts_cell(quantity.alone_impacts));
+    table.rows.push_back(
+        {name, Number{quantity.value, significant(4)}, Sentence(quantity.unit),
+         Number{quantity.error, two_digits}, Number{quantity.worst_error, two_digits},
+         Number{quantity.plain_error, two_digits}, impacts_cell(quantity.impacts)});
+    if (folded) continue;
+    table.rows.back().push_back(impacts_cell(quantity.plain_impacts));
+    table.rows.back().push_back(impacts_cell(quantity.alone_impacts));
   }
   return table;
 }
@@ -262,7 +274,8 @@ std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string
                                    bool folded) {
   Section answer{"plan", "Plan", {}, {plan_answer(plan)}};
   const Sentence efficiency =
-      say("the plan has at least {:.0f} % of the efficiency of the optimal plan",
+      say("on average over the draws, the plan has at least {:.0f} % of the efficiency of the "
+          "optimal plan",
           std::floor(100.0 * plan.efficiency));
   answer.blocks.emplace_back(
       Paragraph{plan.options.checks > 0.0
@@ -288,6 +301,7 @@ PlanFile::Quantity quantity_of(const ExperimentPlan& plan, const PlannedQuantity
                             .value = quantity.value,
                             .unit = quantity.unit,
                             .relative_error = quantity.error,
+                            .relative_error_worst = quantity.worst_error,
                             .relative_error_even = quantity.plain_error,
                             .impacts = whole_number(quantity.impacts),
                             .impacts_even = whole_number(quantity.plain_impacts),
@@ -323,7 +337,8 @@ std::string json_plan(const ExperimentPlan& plan) {
   const PlanOptions& options = plan.options;
   PlanFile out = {.recoil_version = version(),
                   .fit = plan.fit,
-                  .assumed = {.velocities = {options.slowest, options.fastest},
+                  .assumed = {.draws = plan.draws,
+                              .velocities = {options.slowest, options.fastest},
                               .scatter = options.scatter,
                               .floor = options.floor,
                               .spread = options.spread},

@@ -47,20 +47,22 @@ TEST(Design, OneSlopeThroughTheOriginIsLearntAtTheFarEnd) {
   problem.rows = Eigen::VectorXd::LinSpaced(21, 0.0, 2.0);
   problem.known = Eigen::MatrixXd::Zero(1, 1);
   problem.asked = Eigen::MatrixXd::Ones(1, 1);
-  const std::vector<double> shares = recoil::optimal_shares(problem, 8.0);
+  const std::vector<double> shares = recoil::optimal_shares({problem}, 8.0);
   EXPECT_GT(shares[20] + shares[19], 0.99);
   EXPECT_NEAR(sum_of(problem, times(shares, 8.0)), 1.0 / (8.0 * 4.0), 0.003 / 32.0);
-  const std::vector<int> whole = recoil::after_exchanges(problem, recoil::whole_points(shares, 8));
+  const std::vector<int> whole =
+      recoil::after_exchanges({problem}, recoil::whole_points(shares, 8));
   EXPECT_EQ(whole.back(), 8);
 }
 
 TEST(Design, AStraightLineIsLearntAtItsTwoEnds) {
   const DesignProblem problem = polynomial(2, Eigen::MatrixXd::Identity(2, 2));
-  const std::vector<double> shares = recoil::optimal_shares(problem, 1.0);
+  const std::vector<double> shares = recoil::optimal_shares({problem}, 1.0);
   EXPECT_NEAR(share_about(shares, -1.0), 0.5, 0.01);
   EXPECT_NEAR(share_about(shares, 1.0), 0.5, 0.01);
   EXPECT_NEAR(sum_of(problem, shares), 2.0, 0.005);
-  const std::vector<int> whole = recoil::after_exchanges(problem, recoil::whole_points(shares, 10));
+  const std::vector<int> whole =
+      recoil::after_exchanges({problem}, recoil::whole_points(shares, 10));
   EXPECT_EQ(whole.front(), 5);
   EXPECT_EQ(whole.back(), 5);
 }
@@ -69,7 +71,7 @@ TEST(Design, AStraightLineIsLearntAtItsTwoEnds) {
 // the rest at -1, and its variance is x^2.
 TEST(Design, AnExtrapolationLeansOnTheNearEnd) {
   const DesignProblem problem = polynomial(2, Eigen::Vector2d(1.0, 2.0));
-  const std::vector<double> shares = recoil::optimal_shares(problem, 1.0);
+  const std::vector<double> shares = recoil::optimal_shares({problem}, 1.0);
   EXPECT_NEAR(share_about(shares, 1.0), 0.75, 0.02);
   EXPECT_NEAR(share_about(shares, -1.0), 0.25, 0.02);
   EXPECT_NEAR(sum_of(problem, shares), 4.0, 0.01);
@@ -79,14 +81,15 @@ TEST(Design, AnExtrapolationLeansOnTheNearEnd) {
 // (Atkinson, Donev & Tobias 2007, Optimum Experimental Designs).
 TEST(Design, AParabolaIsLearntAtThreePlaces) {
   const DesignProblem problem = polynomial(3, Eigen::MatrixXd::Identity(3, 3));
-  const std::vector<double> shares = recoil::optimal_shares(problem, 1.0);
+  const std::vector<double> shares = recoil::optimal_shares({problem}, 1.0);
   EXPECT_NEAR(sum_of(problem, shares), 8.0, 0.02);
   EXPECT_NEAR(share_about(shares, -1.0), 0.25, 0.02);
   EXPECT_NEAR(share_about(shares, 0.0), 0.5, 0.05);
   EXPECT_NEAR(share_about(shares, 1.0), 0.25, 0.02);
-  EXPECT_GT(recoil::least_possible_sum(problem, shares), 8.0 * 0.99);
-  EXPECT_LE(recoil::least_possible_sum(problem, shares), 8.0 + 1e-9);
-  const std::vector<int> whole = recoil::after_exchanges(problem, recoil::whole_points(shares, 8));
+  EXPECT_GT(recoil::least_possible_sum({problem}, shares), 8.0 * 0.99);
+  EXPECT_LE(recoil::least_possible_sum({problem}, shares), 8.0 + 1e-9);
+  const std::vector<int> whole =
+      recoil::after_exchanges({problem}, recoil::whole_points(shares, 8));
   EXPECT_EQ(whole.front(), 2);
   EXPECT_EQ(whole[20], 4);
   EXPECT_EQ(whole.back(), 2);
@@ -97,7 +100,7 @@ TEST(Design, WhatIsKnownCounts) {
   DesignProblem problem = polynomial(2, Eigen::Vector2d(1.0, 0.0));
   problem.known(0, 0) = 1e6;
   problem.asked = Eigen::Vector2d(0.0, 1.0);
-  const std::vector<double> shares = recoil::optimal_shares(problem, 10.0);
+  const std::vector<double> shares = recoil::optimal_shares({problem}, 10.0);
   EXPECT_NEAR(share_about(shares, -1.0) + share_about(shares, 1.0), 1.0, 0.01);
   EXPECT_NEAR(sum_of(problem, times(shares, 10.0)), 0.1, 0.001);
   // The variance of the intercept itself, by the inverse of a 2 x 2 matrix.
@@ -111,14 +114,14 @@ TEST(Design, NothingBeatsTheBound) {
   const DesignProblem problem = polynomial(3, Eigen::MatrixXd::Identity(3, 3));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const double optimum = sum_of(problem, recoil::optimal_shares(problem, 1.0));
+  const double optimum = sum_of(problem, recoil::optimal_shares({problem}, 1.0));
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<double> shares(41);
     for (double& share : shares) share = uniform(random);
     const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
     for (double& share : shares) share /= total;
     EXPECT_GE(sum_of(problem, shares), optimum * 0.99);
-    EXPECT_LE(recoil::least_possible_sum(problem, shares), 8.0 + 1e-9);
+    EXPECT_LE(recoil::least_possible_sum({problem}, shares), 8.0 + 1e-9);
   }
 }
 
@@ -139,7 +142,7 @@ TEST(Design, ExchangesFindTheWayFromABadStart) {
   std::vector<int> start(41, 0);
   start[20] = 5;
   start[21] = 5;
-  const std::vector<int> found = recoil::after_exchanges(problem, start);
+  const std::vector<int> found = recoil::after_exchanges({problem}, start);
   EXPECT_EQ(found.front(), 5);
   EXPECT_EQ(found.back(), 5);
 }

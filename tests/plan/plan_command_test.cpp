@@ -140,6 +140,19 @@ TEST(PlanCommand, FittedValuesAreTakenFromTheirFit) {
   const Outcome plan = place.run({"plan", "fit.toml", "--parameters", "r/fit.json", "--json"});
   ASSERT_EQ(plan.status, 0) << plan.err;
   const json fit = json::parse(place.read("r/fit.json"));
+  // A guess is worth a factor of two, a fit its errors, and what is stated anew a guess again.
+  const auto worst = [](const json& one) {
+    const json& first = one["quantities"][0];
+    EXPECT_GE(first["relative_error_worst"], first["relative_error"]);
+    return first["relative_error_worst"].get<double>() / first["relative_error"].get<double>();
+  };
+  const double of_fit = worst(json::parse(plan.out));
+  const json guessed = json::parse(place.run({"plan", "fit.toml", "--json"}).out);
+  EXPECT_EQ(guessed["assumed"]["draws"], 200);
+  EXPECT_NE(worst(guessed), of_fit);
+  const Outcome stated = place.run({"plan", "fit.toml", "--parameters", "r/fit.json", "--assume",
+                                    "C_H=3e-3,C_A=0.03", "--json"});
+  EXPECT_NE(worst(json::parse(stated.out)), of_fit);
   EXPECT_EQ(json::parse(plan.out)["assumed"]["parameters"]["C_H"]["value"],
             fit["parameters"]["C_H"]["value"]);
 }
