@@ -118,13 +118,15 @@ fix contact all wall/gran granular hertz/material @E@ @ETA@ 0 &
 // gran_sub_mod_normal_kernel.h of 2026. Without a history of the tangential force this version ends
 // with "Neighbor history overflow".
 constexpr const char* lammps_stock_jkr =
-    R"in(# Johnson, Kendall & Roberts (1971) with the damping -eta m a n', a the contact radius: eta and the
-# surface energy gamma are chosen. E = 1.5 K with nu = 0. The contact parts at the largest pull.
-# In versions of 2021 and 2022 the jkr of fix wall/gran parts at a wrong distance: a sphere that does
-# not move is the wall here. In current versions a wall is
-#   fix ID all wall/gran granular WORDS zplane 0.0 NULL      WORDS: those after pair_coeff * *
+    R"in(# Johnson, Kendall & Roberts (1971) with the damping -eta m a n', a the contact
+# radius: eta and the surface energy gamma are chosen. E = 1.5 K with nu = 0. It
+# parts at the largest pull. In versions of 2021 and 2022 the jkr of fix
+# wall/gran parts at a wrong distance: a sphere that does not move is the wall
+# here. In current versions a wall is, with the words after "* *",
+#   fix ID all wall/gran granular WORDS zplane 0.0 NULL
 pair_style granular
-pair_coeff * * jkr @E@ @ETA@ 0 @GAMMA@ tangential linear_history 0 0 0 damping viscoelastic
+pair_coeff * * jkr @E@ @ETA@ 0 @GAMMA@ &
+    tangential linear_history 0 0 0 damping viscoelastic
 group wall id 2
 fix still wall freeze
 )in";

@@ -167,14 +167,19 @@ std::string copied_words(ExportTarget target, const ExportJob& job) {
           1.5 * force.stiffness, stock.value, stock.energy);
       break;
   }
+  return "To copy: " + values + ".";
+}
+
+/// Where the copied values hold, and how well.
+std::string quality_words(const ExportJob& job) {
+  if (job.form != ExportForm::approximation) return "";
+  const RestitutionError& error = job.stock->error;
   const auto capture = [](double v) { return v > 0.0 ? fmt::format("{:.4g} m/s", v) : "none"; };
   return fmt::format(
-      "To copy: {}, for {:.4g} um, {}. {}Error of e: {:.3f} (rms), {:.3f} (largest). V*: {}; of "
-      "the "
-      "fit {}.",
-      values, 2.0 * force.radius / units::um, range_words(job.impact.request),
-      stock.error.rms > poor_rms ? "A POOR APPROXIMATION. " : "", stock.error.rms,
-      stock.error.largest, capture(stock.capture_velocity), capture(job.impact.capture_velocity));
+      "{}For {:.4g} um, {}: error of e {:.3f} (rms), {:.3f} (largest); V* {}, of the fit {}.",
+      error.rms > poor_rms ? "A POOR APPROXIMATION. " : "", 2.0 * job.force.radius / units::um,
+      range_words(job.impact.request), error.rms, error.largest,
+      capture(job.stock->capture_velocity), capture(job.impact.capture_velocity));
 }
 
 }  // namespace
@@ -184,8 +189,8 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
   std::vector<std::string> lines;
   wrap_into(lines, fmt::format("recoil {}: the impact of {} for {}", version(), source.fit,
                                to_string(target)));
-  if (const std::string copied = copied_words(target, job); !copied.empty()) {
-    wrap_into(lines, copied);
+  for (const std::string& words : {copied_words(target, job), quality_words(job)}) {
+    if (!words.empty()) wrap_into(lines, words);
   }
   wrap_into(lines,
             fmt::format("Fitted to {} ({}). {}", source.dataset, to_string(source.provenance),
