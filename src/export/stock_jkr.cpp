@@ -1,5 +1,6 @@
 #include "export/stock_jkr.hpp"
 
+#include <fmt/format.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -9,6 +10,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/numerics.hpp"
 
 namespace recoil {
@@ -67,7 +69,11 @@ StockImpact impact_under(const StockJkr& contact, double velocity) {
   for (int step = 0; step < most_steps && !(outward && y[1] >= 0.0); ++step) {
     double before[3];
     std::copy(std::begin(y), std::end(y), before);
-    gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &sigma, 1e9, &driver->h, y);
+    if (gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &sigma, 1e9, &driver->h,
+                                y) != GSL_SUCCESS) {
+      throw ComputationError(
+          fmt::format("the impact at V = {:.6g} m/s under jkr of LAMMPS", velocity));
+    }
     outward = outward || y[1] < 0.0;
     if (y[0] > parts || y[1] >= 0.0) continue;
     motion.over_depth = true;

@@ -28,6 +28,7 @@ struct StockImpact {
 };
 
 /// One impact with the velocity V [m/s].
+/// @throws ComputationError if it has no result
 StockImpact impact_under(const StockJkr& contact, double velocity);
 
 }  // namespace recoil
