@@ -120,7 +120,7 @@ fix contact all wall/gran granular hertz/material @E@ @ETA@ 0 &
 constexpr const char* lammps_stock_jkr =
     R"in(# Johnson, Kendall & Roberts (1971) with the damping -eta m a n', a the contact
 # radius: eta and the surface energy gamma are chosen. E = 1.5 K with nu = 0. It
-# parts at the largest pull. In versions of 2021 and 2022 the jkr of fix
+# parts at the largest pull. In the version of 29 Sep 2021 the jkr of fix
 # wall/gran parts at a wrong distance: a sphere that does not move is the wall
 # here. In current versions a wall is, with the words after "* *",
 #   fix ID all wall/gran granular WORDS zplane 0.0 NULL
