@@ -169,7 +169,7 @@ void run_export(const GivenOptions& given) {
     job.force = job.refitted->force;
   }
   if (job.form == ExportForm::approximation) {
-    job.stock = nearest(stock_model(target), job.impact, least_restitution(target));
+    job.stock = nearest_stock(target, job.impact);
   }
   if (job.form == ExportForm::lookup && target != ExportTarget::table) {
     job.lookup =

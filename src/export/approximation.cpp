@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/numerics.hpp"
@@ -23,6 +25,61 @@ std::vector<double> answers(const Approximation& approximation, const ExportedIm
     return std::vector<double>(impact.velocity.size(), approximation.value);
   }
   return restitution_under(force_of(approximation, impact), impact.velocity);
+}
+
+void require_rebounds(const ExportedImpact& impact) {
+  if (std::ranges::any_of(impact.restitution, [](double e) { return e > 0.0; })) return;
+  throw InputError({},
+                   fmt::format("every sphere from {:.4g} to {:.4g} m/s is captured",
+                               impact.request.slowest, impact.request.fastest),
+                   "only rebounds determine a contact model of the program itself",
+                   "state a faster range: --velocity MIN,MAX");
+}
+
+/// The parameters, all positive, with the least squares of (e^2 - e_fit^2) / (2 max(e_fit, 0.1)).
+/// @param squares_for e^2 at the velocities of the impact, continued below zero for captures
+std::vector<double> least_squares(
+    const ExportedImpact& impact, std::vector<double> lower, std::vector<double> upper,
+    std::vector<double> start,
+    const std::function<std::vector<double>(std::span<const double>)>& squares_for) {
+  constexpr double smallest = 0.1;  // of e, in the weights
+  constexpr double step = 1e-5;     // of the logarithms, for the derivatives
+  const auto residuals_at = [&](std::span<const double> theta, std::span<double> residuals) {
+    const std::vector<double> squares = squares_for(theta);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      const double e = impact.restitution[k];
+      const double square = e > 0.0 ? squares[k] : std::max(squares[k], 0.0);
+      residuals[k] = (square - e * e) / (2.0 * std::max(e, smallest));
+    }
+  };
+  LeastSquaresProblem problem;
+  problem.residual_count = impact.velocity.size();
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    start[j] = std::clamp(start[j], 10.0 * lower[j], 0.1 * upper[j]);
+  }
+  problem.lower = std::move(lower);
+  problem.upper = std::move(upper);
+  problem.log_scale.assign(start.size(), true);
+  problem.evaluate = [&](std::span<const double> theta, std::span<double> residuals,
+                         std::span<double> jacobian) {
+    residuals_at(theta, residuals);
+    if (jacobian.empty()) return true;
+    std::vector<double> moved(residuals.size());
+    for (std::size_t j = 0; j < theta.size(); ++j) {
+      std::vector<double> there(theta.begin(), theta.end());
+      there[j] *= 1.0 + step;
+      residuals_at(there, moved);
+      for (std::size_t k = 0; k < residuals.size(); ++k) {
+        jacobian[k * theta.size() + j] = (moved[k] - residuals[k]) / (step * theta[j]);
+      }
+    }
+    return true;
+  };
+  LeastSquaresOptions options;
+  options.finish = false;
+  options.max_iterations = 200;
+  const LeastSquaresResult found = minimise(problem, start, options);
+  return found.theta.empty() ? start : found.theta;
 }
 
 }  // namespace
@@ -55,13 +112,7 @@ ContactForce force_of(const Approximation& approximation, const ExportedImpact& 
 }
 
 Approximation nearest(StockModel model, const ExportedImpact& impact, double least_restitution) {
-  if (std::ranges::all_of(impact.restitution, [](double e) { return e == 0.0; })) {
-    throw InputError({},
-                     fmt::format("every sphere from {:.4g} to {:.4g} m/s is captured",
-                                 impact.request.slowest, impact.request.fastest),
-                     "the contact models of the program itself capture none",
-                     "state a faster range: --velocity MIN,MAX");
-  }
+  require_rebounds(impact);
   Approximation out;
   out.model = model;
   const std::vector<double>& e = impact.restitution;
@@ -77,7 +128,9 @@ Approximation nearest(StockModel model, const ExportedImpact& impact, double lea
         std::pow(mass * velocity * velocity / (f.stiffness * std::sqrt(f.radius)), 0.4);
     const double unit = mass * velocity / std::pow(length, 1.5);
     const auto rms = [&](double logarithm) {
-      const Approximation tried = {model, unit * std::exp(logarithm), {}};
+      Approximation tried;
+      tried.model = model;
+      tried.value = unit * std::exp(logarithm);
       return restitution_error(impact, answers(tried, impact)).rms;
     };
     out.value =
@@ -87,9 +140,58 @@ Approximation nearest(StockModel model, const ExportedImpact& impact, double lea
   return out;
 }
 
+StockJkr jkr_of(const Approximation& approximation, const ExportedImpact& impact) {
+  const ContactForce& f = impact.force;
+  return {f.radius, f.mass(), f.stiffness, approximation.value, approximation.energy};
+}
+
+Approximation nearest_jkr(const ExportedImpact& impact) {
+  constexpr double apart = 1e3;  // of the bounds from the start
+  require_rebounds(impact);
+  const ContactForce& f = impact.force;
+  Approximation out;
+  out.model = StockModel::jkr;
+  const auto at = [&](double velocity) { return impact_under(jkr_of(out, impact), velocity); };
+  const double dashpot = nearest(StockModel::hertz_dashpot, impact).value;
+  const double damping = dashpot / (f.mass() * std::sqrt(f.radius));
+  const double energy = 0.5 * f.adhesion_energy;
+  const std::vector<double> found =
+      least_squares(impact, {damping / apart, energy / apart}, {damping * apart, energy * apart},
+                    {damping, energy}, [&](std::span<const double> theta) {
+                      out.value = theta[0];
+                      out.energy = theta[1];
+                      std::vector<double> squares;
+                      for (const double v : impact.velocity)
+                        squares.push_back(at(v).restitution_squared);
+                      return squares;
+                    });
+  out.value = found[0];
+  out.energy = found[1];
+  std::vector<double> e;
+  for (const double v : impact.velocity) {
+    const StockImpact one = at(v);
+    e.push_back(std::sqrt(std::max(one.restitution_squared, 0.0)));
+    out.longest_contact = std::max(out.longest_contact, one.time);
+  }
+  out.error = restitution_error(impact, e);
+  out.capture_velocity = capture_velocity_of([&](double v) { return at(v).restitution_squared; },
+                                             impact.request.fastest);
+  return out;
+}
+
+Approximation nearest_stock(ExportTarget target, const ExportedImpact& impact) {
+  if (target != ExportTarget::lammps) {
+    // LIGGGHTS 3.8 rejects 0.05 and less
+    const double least = target == ExportTarget::liggghts ? std::nextafter(0.05, 1.0) : 0.0;
+    return nearest(StockModel::constant_restitution, impact, least);
+  }
+  const Approximation hertz = nearest(StockModel::hertz_dashpot, impact);
+  if (impact.force.adhesion_energy == 0.0) return hertz;
+  const Approximation jkr = nearest_jkr(impact);
+  return jkr.error.rms < hertz.error.rms ? jkr : hertz;
+}
+
 RefittedForce refitted_force(const ExportedImpact& impact) {
-  constexpr double smallest = 0.1;  // of e, in the weights
-  constexpr double step = 1e-5;     // of the logarithms, for the derivatives
   RefittedForce out;
   const auto force_for = [&](std::span<const double> theta) {
     ContactForce force = impact.force;
@@ -99,47 +201,17 @@ RefittedForce refitted_force(const ExportedImpact& impact) {
     force.adhesion_force = theta[2];
     return force;
   };
-  const auto residuals_at = [&](std::span<const double> theta, std::span<double> residuals) {
-    const std::vector<double> squares = squares_under(force_for(theta), impact.velocity);
-    for (std::size_t k = 0; k < squares.size(); ++k) {
-      const double e = impact.restitution[k];
-      const double square = e > 0.0 ? squares[k] : std::max(squares[k], 0.0);
-      residuals[k] = (square - e * e) / (2.0 * std::max(e, smallest));
-    }
-  };
-  LeastSquaresProblem problem;
-  problem.residual_count = impact.velocity.size();
+  const ContactForce& f = impact.force;
   const double slow = 1.0 / impact.request.fastest;
-  problem.lower = {1e-5 * slow, 1e-5 * slow, 1e-3 * impact.force.adhesion_force};
-  problem.upper = {1e2 * slow, 1e4 * slow, 1e3 * impact.force.adhesion_force};
-  problem.log_scale = {true, true, true};
-  problem.evaluate = [&](std::span<const double> theta, std::span<double> residuals,
-                         std::span<double> jacobian) {
-    residuals_at(theta, residuals);
-    if (jacobian.empty()) return true;
-    std::vector<double> moved(residuals.size());
-    for (std::size_t j = 0; j < theta.size(); ++j) {
-      std::vector<double> there(theta.begin(), theta.end());
-      there[j] *= 1.0 + step;
-      residuals_at(there, moved);
-      for (std::size_t k = 0; k < residuals.size(); ++k) {
-        jacobian[k * theta.size() + j] = (moved[k] - residuals[k]) / (step * theta[j]);
-      }
-    }
-    return true;
-  };
-  std::vector<double> start = {impact.force.hertz_damping, impact.force.adhesion_damping,
-                               impact.force.adhesion_force};
-  for (std::size_t j = 0; j < start.size(); ++j) {
-    start[j] = std::clamp(start[j], 10.0 * problem.lower[j], 0.1 * problem.upper[j]);
-  }
-  LeastSquaresOptions options;
-  options.finish = false;
-  options.max_iterations = 200;
-  const LeastSquaresResult found = minimise(problem, start, options);
-  out.force = force_for(found.theta.empty() ? start : found.theta);
+  out.force = force_for(least_squares(impact, {1e-5 * slow, 1e-5 * slow, 1e-3 * f.adhesion_force},
+                                      {1e2 * slow, 1e4 * slow, 1e3 * f.adhesion_force},
+                                      {f.hertz_damping, f.adhesion_damping, f.adhesion_force},
+                                      [&](std::span<const double> theta) {
+                                        return squares_under(force_for(theta), impact.velocity);
+                                      }));
   out.error = restitution_error(impact, restitution_under(out.force, impact.velocity));
-  out.capture_velocity = capture_velocity_under(out.force, impact.request.fastest);
+  out.capture_velocity = capture_velocity_of(
+      [&](double v) { return squares_under(out.force, {{v}}).front(); }, impact.request.fastest);
   return out;
 }
 
@@ -159,15 +231,6 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
       break;
   }
   return ExportForm::lookup;
-}
-
-StockModel stock_model(ExportTarget target) {
-  if (target == ExportTarget::lammps) return StockModel::hertz_dashpot;
-  return StockModel::constant_restitution;
-}
-
-double least_restitution(ExportTarget target) {
-  return target == ExportTarget::liggghts ? std::nextafter(0.05, 1.0) : 0.0;
 }
 
 }  // namespace recoil

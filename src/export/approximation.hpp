@@ -1,13 +1,15 @@
 #pragma once
 
 #include "export/exported_impact.hpp"
+#include "export/stock_jkr.hpp"
 
 namespace recoil {
 
-/// Contact models of other programs. Each has one parameter, and none captures.
+/// Contact models of other programs. Only jkr captures.
 enum class StockModel {
   constant_restitution,  ///< e at all velocities
-  hertz_dashpot          ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
+  hertz_dashpot,         ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
+  jkr                    ///< StockJkr
 };
 
 /// The error of e(V) of an approximation over the range of velocities. A captured sphere has e = 0.
@@ -21,8 +23,11 @@ RestitutionError restitution_error(const ExportedImpact& impact, std::span<const
 
 struct Approximation {
   StockModel model = StockModel::constant_restitution;
-  double value = 0.0;  ///< e [1] or D [N s m^(-3/2)]
+  double value = 0.0;   ///< e [1], D [N s m^(-3/2)] or eta of StockJkr [1/(m s)]
+  double energy = 0.0;  ///< gamma of StockJkr [J/m2]
   RestitutionError error;
+  double capture_velocity = 0.0;  ///< [m/s]; 0: no capture
+  double longest_contact = 0.0;   ///< of StockJkr, over the range [s]
 };
 
 /// The parameter of `model` with the smallest rms of delta e over velocities evenly spaced in log
@@ -30,6 +35,19 @@ struct Approximation {
 /// @throws InputError if every sphere is captured
 Approximation nearest(StockModel model, const ExportedImpact& impact,
                       double least_restitution = 0.0);
+
+/// StockJkr with the two parameters of the least squares of `refitted_force`. E* stays that of the
+/// fit, which contact times and forces depend on.
+/// @throws InputError if every sphere is captured
+Approximation nearest_jkr(const ExportedImpact& impact);
+
+/// The contact of a jkr approximation.
+StockJkr jkr_of(const Approximation& approximation, const ExportedImpact& impact);
+
+/// The nearest of the contact models that `target` has: jkr only if the fit has adhesion and e is
+/// nearer than that of the others.
+/// @throws InputError if every sphere is captured
+Approximation nearest_stock(ExportTarget target, const ExportedImpact& impact);
 
 /// The force of a hertz_dashpot approximation.
 ContactForce force_of(const Approximation& approximation, const ExportedImpact& impact);
@@ -57,10 +75,5 @@ enum class ExportForm {
 
 /// The best form of this impact for `target`. @param stock requires a contact model of the program
 ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stock = false);
-
-StockModel stock_model(ExportTarget target);
-
-/// The smallest constant e that `target` accepts: LIGGGHTS 3.8 rejects 0.05 and less.
-double least_restitution(ExportTarget target);
 
 }  // namespace recoil

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -19,9 +20,10 @@ double time_step(const ExportedImpact& impact) {
   return rounded(impact.shortest_contact / steps_per_contact, 2);
 }
 
-double longest_run(const ExportedImpact& impact) {
+double longest_run(const ExportJob& job) {
   constexpr double patience = 2.5;
-  return rounded(patience * impact.longest_contact, 2);
+  const double stock = job.stock ? job.stock->longest_contact : 0.0;
+  return rounded(patience * std::max(job.impact.longest_contact, stock), 2);
 }
 
 double typical_velocity(const ExportedImpact& impact) {

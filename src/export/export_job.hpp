@@ -32,7 +32,7 @@ inline constexpr double steps_per_contact = 10000.0;
 double time_step(const ExportedImpact& impact);
 
 /// The longest duration of a run; a sphere still in contact then has stayed [s].
-double longest_run(const ExportedImpact& impact);
+double longest_run(const ExportJob& job);
 
 /// The default incident velocity, the geometric mean of the range, rounded to two digits [m/s].
 double typical_velocity(const ExportedImpact& impact);

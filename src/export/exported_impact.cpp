@@ -119,8 +119,7 @@ std::vector<double> restitution_under(const ContactForce& force, std::span<const
   return e;
 }
 
-double capture_velocity_under(const ContactForce& force, double fastest) {
-  const auto square = [&](double v) { return squares_under(force, {{v}}).front(); };
+double capture_velocity_of(const std::function<double(double)>& square, double fastest) {
   double above = fastest;
   for (double v = 0.8 * fastest; v > no_adhesion * fastest; v *= 0.8) {
     if (square(v) <= 0.0) return find_root(square, v, above, 1e-10);

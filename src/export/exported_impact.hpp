@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -45,8 +46,9 @@ std::vector<double> squares_under(const ContactForce& force, std::span<const dou
 /// e at every velocity; 0 for captures.
 std::vector<double> restitution_under(const ContactForce& force, std::span<const double> velocity);
 
-/// The capture velocity of `force` [m/s] between 1e-6 `fastest` and `fastest`; 0: there is none.
-double capture_velocity_under(const ContactForce& force, double fastest);
+/// The largest velocity [m/s] between 1e-6 `fastest` and `fastest` at which the e^2 of `square` is
+/// zero; 0: there is none.
+double capture_velocity_of(const std::function<double(double)>& square, double fastest);
 
 /// The time from first contact to release or to the first outer turning point [s].
 double contact_time_under(const ContactForce& force, double velocity);

@@ -11,9 +11,10 @@ namespace recoil {
 std::vector<WholeFile> fluent_files(const ExportJob& job);
 
 /// `impact.lammps`: one impact on the plane z = 0 in `units micro` (um, us, pg). The force law is
-/// in atom-style variables and acts through `fix addforce`; the stock model is `fix wall/gran` with
-/// Hertz and viscoelastic damping. Tested with LAMMPS 29 Sep 2021 (Update 2). Not used: damping
-/// `tsuji`, which does not give the requested e there, and `jkr` on walls, which never captures.
+/// in atom-style variables and acts through `fix addforce`; the stock model is `pair_style
+/// granular` with `jkr`, or `hertz/material` without adhesion, and viscoelastic damping. Tested
+/// with LAMMPS 29 Sep 2021 (Update 2). Not used: damping `tsuji`, which does not give the requested
+/// e there, and `jkr` of `fix wall/gran`, which parts at a wrong distance there.
 std::vector<WholeFile> lammps_files(const ExportJob& job);
 
 /// `impact.liggghts`: one impact on the plane z = 0 in SI units, Hertz with the nearest constant

@@ -32,7 +32,7 @@ create_box 1 box
 create_atoms 1 single 0 0 @R@
 set atom 1 diameter @D@ density @RHO@
 velocity all set 0 0 -$V
-comm_modify cutoff @SIDE@
+@WALL@comm_modify cutoff @SIDE@
 timestep ${dt}
 
 @FORCE@
@@ -114,8 +114,35 @@ fix contact all wall/gran granular hertz/material @E@ @ETA@ 0 &
     tangential linear_nohistory 0 0 damping viscoelastic zplane 0.0 NULL
 )in";
 
+// From pair_granular.cpp and fix_wall_gran.cpp of this version and from
+// gran_sub_mod_normal_kernel.h of 2026. Without a history of the tangential force this version ends
+// with "Neighbor history overflow".
+constexpr const char* lammps_stock_jkr =
+    R"in(# Johnson, Kendall & Roberts (1971) with the damping -eta m a n', a the contact
+# radius: eta and the surface energy gamma are chosen. E = 1.5 K with nu = 0. It
+# parts at the largest pull. In the version of 29 Sep 2021 the jkr of fix
+# wall/gran parts at a wrong distance: a sphere that does not move is the wall
+# here. In current versions a wall is, with the words after "* *",
+#   fix ID all wall/gran granular WORDS zplane 0.0 NULL
+pair_style granular
+pair_coeff * * jkr @E@ @ETA@ 0 @GAMMA@ &
+    tangential linear_history 0 0 0 damping viscoelastic
+group wall id 2
+fix still wall freeze
+)in";
+
+constexpr const char* lammps_wall = R"in(create_atoms 1 single 0 0 -@WALLR@
+set atom 2 diameter @WALLD@
+)in";
+constexpr double wall_radius = 1e4;  // of the sphere's
+
 std::string force_text(const ExportJob& job) {
   const ContactForce& f = job.force;
+  if (job.form == ExportForm::approximation && job.stock->model == StockModel::jkr) {
+    return filled(lammps_stock_jkr, {{"E", shortest(1.5 * f.stiffness * pascal)},
+                                     {"ETA", shortest(job.stock->value / (us * um))},
+                                     {"GAMMA", shortest(job.stock->energy * newton_per_meter)}});
+  }
   if (job.form == ExportForm::approximation) {
     return filled(
         lammps_stock,
@@ -145,21 +172,30 @@ std::string force_text(const ExportJob& job) {
 std::vector<WholeFile> lammps_files(const ExportJob& job) {
   const ContactForce& f = job.force;
   const bool exact = job.form != ExportForm::approximation;
+  const bool stock_jkr = !exact && job.stock->model == StockModel::jkr;
   const bool parts_outside = exact && f.adhesion == AdhesionLaw::jkr && f.adhesion_energy > 0.0;
-  const double side = rounded(8.0 * f.radius * um, 2);
+  const double side = rounded((stock_jkr ? 2.2 * wall_radius : 8.0) * f.radius * um, 2);
+  std::string release = parts_outside ? "v_R+3*v_u" : shortest(f.radius * um);
+  std::string wall;
+  if (stock_jkr) {
+    release = shortest((f.radius + 3.0 * jkr_of(*job.stock, job.impact).scales().length) * um);
+    wall = filled(lammps_wall, {{"WALLR", shortest(wall_radius * f.radius * um)},
+                                {"WALLD", shortest(2.0 * wall_radius * f.radius * um)}});
+  }
   const std::string text =
       filled(lammps_frame, {{"HEADING", commented(job.heading, "# ")},
                             {"V", shortest(typical_velocity(job.impact))},
                             {"DT", shortest(time_step(job.impact) * us)},
-                            {"DURATION", shortest(longest_run(job.impact) * us)},
+                            {"DURATION", shortest(longest_run(job) * us)},
                             {"NEWTON", exact ? "" : "newton off\ncomm_modify vel yes\n"},
                             {"SIDE", shortest(side)},
                             {"TOP", shortest(4.0 * side)},
                             {"R", shortest(f.radius * um)},
                             {"D", shortest(2.0 * f.radius * um)},
                             {"RHO", shortest(f.density * density)},
+                            {"WALL", wall},
                             {"FORCE", force_text(job)},
-                            {"RELEASE", parts_outside ? "v_R+3*v_u" : shortest(f.radius * um)}});
+                            {"RELEASE", release}});
   return {{"impact.lammps", text}};
 }
 

@@ -66,7 +66,7 @@ std::vector<WholeFile> liggghts_files(const ExportJob& job) {
            filled(liggghts_text, {{"HEADING", commented(job.heading, "# ")},
                                   {"V", shortest(typical_velocity(job.impact))},
                                   {"DT", shortest(time_step(job.impact))},
-                                  {"DURATION", shortest(longest_run(job.impact))},
+                                  {"DURATION", shortest(longest_run(job))},
                                   {"SIDE", shortest(side)},
                                   {"TOP", shortest(4.0 * side)},
                                   {"SKIN", shortest(rounded(0.5 * f.radius, 1))},

@@ -128,7 +128,7 @@ std::vector<WholeFile> yade_files(const ExportJob& job) {
   const std::string head = filled(yade_head, {{"HEADING", commented(job.heading, "# ")},
                                               {"V", shortest(typical_velocity(job.impact))},
                                               {"DT", shortest(time_step(job.impact))},
-                                              {"DURATION", shortest(longest_run(job.impact))},
+                                              {"DURATION", shortest(longest_run(job))},
                                               {"R", shortest(job.force.radius)}});
   return {{"impact.py", head + yade_body(job)}};
 }

@@ -14,6 +14,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t comment_columns = 78;
+constexpr double poor_rms = 0.1;  // of e, from which an approximation is called poor
 
 std::string stock_words(const Approximation& stock) {
   switch (stock.model) {
@@ -22,6 +23,11 @@ std::string stock_words(const Approximation& stock) {
     case StockModel::hertz_dashpot:
       return fmt::format("Hertz with the damping -D n^(1/2) n', D = {:.5g} N s m^(-3/2)",
                          stock.value);
+    case StockModel::jkr:
+      return fmt::format(
+          "granular jkr with the damping -eta m a n' and the surface energy gamma, eta = {:.5g} "
+          "1/(m s), gamma = {:.5g} J/m2",
+          stock.value, stock.energy);
   }
   return "";
 }
@@ -41,7 +47,15 @@ std::string range_words(const ExportRequest& request) {
   return fmt::format("V from {:.4g} to {:.4g} m/s", request.slowest, request.fastest);
 }
 
-std::string lost_capture_words(const ExportedImpact& impact) {
+/// @param elsewhere the capture velocity in the other program [m/s]; 0: it captures none
+std::string capture_words(const ExportedImpact& impact, double elsewhere) {
+  if (elsewhere > 0.0) {
+    return impact.captures
+               ? fmt::format("Captures are kept, with V* = {:.4g} m/s instead of {:.4g} m/s.",
+                             elsewhere, impact.capture_velocity)
+               : fmt::format("This export captures below V* = {:.4g} m/s, the fit does not.",
+                             elsewhere);
+  }
   if (!impact.captures) return "Neither the fit nor this export captures spheres of this size.";
   return fmt::format(
       "The capture velocity is LOST: in the fit a sphere slower than V* = {:.4g} m/s stays, here "
@@ -88,21 +102,20 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
         why_no_force(target, impact), other.force.hertz_damping, other.force.adhesion_damping,
         other.force.adhesion_force, range_words(impact.request), other.error.rms,
         other.error.largest, other.error.at, other.error.rebounding));
-    out.push_back(
-        other.capture_velocity > 0.0
-            ? fmt::format("Captures are kept, with V* = {:.4g} m/s instead of {:.4g} m/s.",
-                          other.capture_velocity, impact.capture_velocity)
-            : lost_capture_words(impact));
+    out.push_back(capture_words(impact, other.capture_velocity));
   } else if (job.form == ExportForm::approximation) {
     const RestitutionError& error = job.stock->error;
     out.push_back(fmt::format("An approximation, as {}: {}.",
                               stock_asked ? "--stock was given" : why_no_force(target, impact),
                               stock_words(*job.stock)));
     out.push_back(fmt::format(
-        "This value has the smallest rms error of e over {}, evenly spaced in log V: {:.4f}; the "
-        "largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
+        "{} error of e over {}, evenly spaced in log V: {:.4f} (rms); the largest error is {:.4f} "
+        "at "
+        "{:.4g} m/s ({:.4f} where the fit rebounds).",
+        job.stock->model == StockModel::jkr ? "Chosen by least squares of e^2; the"
+                                            : "This value has the smallest rms",
         range_words(impact.request), error.rms, error.largest, error.at, error.rebounding));
-    out.push_back(lost_capture_words(impact));
+    out.push_back(capture_words(impact, job.stock->capture_velocity));
   } else if (target != ExportTarget::table) {
     out.push_back(
         fmt::format("e(V, d) is looked up in a table: e is within {:.1g} of the fit between its "
@@ -136,13 +149,37 @@ std::string copied_words(ExportTarget target, const ExportJob& job) {
         "To copy: C_H = {:.5g} s/m, C_A = {:.5g} s/m, f0 = {:.5g} N/m, K = {:.5g} Pa.",
         force.hertz_damping, force.adhesion_damping, force.adhesion_force, force.stiffness);
   }
-  const bool constant = job.stock->model == StockModel::constant_restitution;
-  return fmt::format("To copy: {} = {:.5g}{}, K = {:.5g} Pa, for {}.",
-                     !constant                          ? "D"
-                     : target == ExportTarget::liggghts ? "coefficientRestitution"
-                                                        : "e",
-                     job.stock->value, constant ? "" : " N s m^(-3/2)", force.stiffness,
-                     range_words(job.impact.request));
+  const Approximation& stock = *job.stock;
+  std::string values;
+  switch (stock.model) {
+    case StockModel::constant_restitution:
+      values = fmt::format("{} = {:.5g}, K = {:.5g} Pa",
+                           target == ExportTarget::liggghts ? "coefficientRestitution" : "e",
+                           stock.value, force.stiffness);
+      break;
+    case StockModel::hertz_dashpot:
+      values = fmt::format("D = {:.5g} N s m^(-3/2), K = {:.5g} Pa", stock.value, force.stiffness);
+      break;
+    case StockModel::jkr:
+      values = fmt::format(
+          "jkr with E = {:.5g} Pa, eta = {:.5g} 1/(m s), nu = 0, gamma = {:.5g} J/m2, damping "
+          "viscoelastic",
+          1.5 * force.stiffness, stock.value, stock.energy);
+      break;
+  }
+  return "To copy: " + values + ".";
+}
+
+/// Where the copied values hold, and how well.
+std::string quality_words(const ExportJob& job) {
+  if (job.form != ExportForm::approximation) return "";
+  const RestitutionError& error = job.stock->error;
+  const auto capture = [](double v) { return v > 0.0 ? fmt::format("{:.4g} m/s", v) : "none"; };
+  return fmt::format(
+      "{}For {:.4g} um, {}: error of e {:.3f} (rms), {:.3f} (largest); V* {}, of the fit {}.",
+      error.rms > poor_rms ? "A POOR APPROXIMATION. " : "", 2.0 * job.force.radius / units::um,
+      range_words(job.impact.request), error.rms, error.largest,
+      capture(job.stock->capture_velocity), capture(job.impact.capture_velocity));
 }
 
 }  // namespace
@@ -152,8 +189,8 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
   std::vector<std::string> lines;
   wrap_into(lines, fmt::format("recoil {}: the impact of {} for {}", version(), source.fit,
                                to_string(target)));
-  if (const std::string copied = copied_words(target, job); !copied.empty()) {
-    wrap_into(lines, copied);
+  for (const std::string& words : {copied_words(target, job), quality_words(job)}) {
+    if (!words.empty()) wrap_into(lines, words);
   }
   wrap_into(lines,
             fmt::format("Fitted to {} ({}). {}", source.dataset, to_string(source.provenance),

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "jkr_by_time.hpp"
 #include "support/synthetic.hpp"
 
 namespace {
@@ -52,6 +53,75 @@ TEST(Approximation, NoOtherValueIsNearer) {
     const auto e = restitution_under(force_of(other, impact), impact.velocity);
     EXPECT_GE(restitution_error(impact, e).rms, found.error.rms - 1e-9) << factor;
   }
+}
+
+TEST(Approximation, TheStockJkrHasTheStatedErrorAndKeepsTheCapture) {
+  const ExportedImpact impact = example();
+  ASSERT_TRUE(impact.captures);
+  const Approximation found = nearest_stock(ExportTarget::lammps, impact);
+  ASSERT_EQ(found.model, StockModel::jkr);
+  const ContactForce& f = impact.force;
+  const JkrByTime contact = {f.radius, f.mass(), 0.75 * f.stiffness, found.value, found.energy};
+  std::vector<double> e;
+  for (const double v : impact.velocity) {
+    e.push_back(contact.restitution(v, 500));
+    const double square = impact_under(jkr_of(found, impact), v).restitution_squared;
+    EXPECT_NEAR(std::sqrt(std::max(square, 0.0)), e.back(), 1e-4) << v;
+  }
+  const RestitutionError error = restitution_error(impact, e);
+  EXPECT_NEAR(found.error.rms, error.rms, 1e-5);
+  EXPECT_NEAR(found.error.largest, error.largest, 1e-4);
+  EXPECT_EQ(contact.restitution(0.99 * found.capture_velocity), 0.0);
+  EXPECT_GT(contact.restitution(1.01 * found.capture_velocity), 0.0);
+  EXPECT_LT(error.rms, nearest(StockModel::hertz_dashpot, impact).error.rms);
+  for (const double factor : {0.8, 1.25}) {
+    for (const bool energy : {false, true}) {
+      JkrByTime other = contact;
+      (energy ? other.gamma : other.eta) *= factor;
+      e.clear();
+      for (const double v : impact.velocity) e.push_back(other.restitution(v, 500));
+      EXPECT_GT(restitution_error(impact, e).rms, error.rms) << factor << energy;
+    }
+  }
+}
+
+TEST(Approximation, TheStockJkrFindsTheContactThatThereIs) {
+  ExportedImpact impact = example();
+  const ContactForce& f = impact.force;
+  const JkrByTime truth = {f.radius, f.mass(), 0.75 * f.stiffness, 3e13, 0.2};
+  for (std::size_t k = 0; k < error_velocities; ++k) {
+    impact.restitution[k] = truth.restitution(impact.velocity[k], 500);
+  }
+  const Approximation found = nearest_stock(ExportTarget::lammps, impact);
+  EXPECT_NEAR(found.value / 3e13, 1.0, 1e-3);
+  EXPECT_NEAR(found.energy / 0.2, 1.0, 1e-3);
+  EXPECT_LT(found.error.largest, 1e-3);
+}
+
+// e^2 = 1 - 2 loss / (m V^2). From n = 0 to where it parts, elastic and adhesive energy change by
+// [4 (z^10 / 10 - z^7 + 3 z^4 / 2)] K a_p^3 u / R between z = 4^(1/3) and 3^(1/3), z^2 = a / a_p.
+TEST(Approximation, AnUndampedStockJkrLosesTheWorkBetweenFormingAndParting) {
+  const ContactForce f = example().force;
+  const StockJkr contact = {f.radius, f.mass(), f.stiffness, 0.0, 0.1};
+  const double R = f.radius;
+  const double cube = M_PI * 0.1 * R * R / (3.0 * f.stiffness);
+  const double unit = f.stiffness * cube * std::cbrt(cube * cube) / (R * R);
+  const auto energy = [](double z) {
+    return 4.0 * (std::pow(z, 10) / 10.0 - std::pow(z, 7) + 1.5 * std::pow(z, 4));
+  };
+  const double loss = unit * (energy(std::cbrt(3.0)) - energy(std::cbrt(4.0)));
+  for (const double V : {0.3, 2.0, 40.0}) {
+    EXPECT_NEAR(impact_under(contact, V).restitution_squared, 1.0 - 2.0 * loss / (f.mass() * V * V),
+                1e-7)
+        << V;
+  }
+}
+
+TEST(Approximation, WithoutAdhesionTheStockModelIsHertz) {
+  ExportedImpact impact = example();
+  impact.force.adhesion_energy = impact.force.adhesion_force = 0.0;
+  EXPECT_EQ(nearest_stock(ExportTarget::lammps, impact).model, StockModel::hertz_dashpot);
+  EXPECT_EQ(nearest_stock(ExportTarget::yade, impact).model, StockModel::constant_restitution);
 }
 
 TEST(Approximation, AForceIsExactAndAnEnergyIsNot) {

@@ -249,10 +249,18 @@ TEST(Export, AStockModelIsGivenWhatTheProgramTakesOrNothing) {
     if (std::string(target) != "liggghts") words.push_back("--stock");
     const Outcome run = export_to(place, target, words);
     EXPECT_EQ(run.status, 2) << run.out;
-    EXPECT_NE(run.err.find("is captured (the contact models of the program itself capture none)"),
-              std::string::npos)
+    EXPECT_NE(
+        run.err.find("is captured (only rebounds determine a contact model of the program itself)"),
+        std::string::npos)
         << run.err;
   }
+}
+
+TEST(Export, AStockModelFitsTheTerminal) {
+  const Workplace place;
+  ASSERT_EQ(export_to(place, "lammps", {"--stock", "--diameter", "4"}).status, 0);
+  std::istringstream lines(place.read("out/impact.lammps"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
 }
 
 // LIGGGHTS 3.8.0: "youngsModulus >= 5e6 required for SI units (use command 'soft_particles yes' to

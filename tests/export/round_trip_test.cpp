@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
+#include "jkr_by_time.hpp"
 #include "support/hostile_names.hpp"
 
 namespace {
@@ -148,12 +150,39 @@ TEST(RoundTrip, TwoLikeBodiesInLiggghtsAreAsStiffAsTheTwoUnlike) {
   EXPECT_NEAR(E, 2.0 * (1.0 - 0.25 * 0.25) * 2.858707e9, 1e6);
 }
 
-TEST(RoundTrip, TheStockModelOfLammpsHasItsStatedError) {
+/// R, m, E*, eta and gamma of a stock file, from "diameter D density RHO" and "jkr E eta 0 gamma"
+/// in um, us and pg.
+JkrByTime jkr_in(const std::string& file) {
+  const double R = 0.5e-6 * number_after(file, "set atom 1 diameter ");
+  const double density = 1e3 * number_after(file, " density ");
+  std::istringstream words(file.substr(file.find("pair_coeff * * jkr ") + 19));
+  double E = 0.0;
+  double eta = 0.0;
+  double nu = 1.0;
+  double gamma = 0.0;
+  words >> E >> eta >> nu >> gamma;
+  EXPECT_EQ(nu, 0.0);
+  return {R, 4.0 / 3.0 * M_PI * R * R * R * density, 0.5e3 * E, 1e12 * eta, 1e-3 * gamma};
+}
+
+TEST(RoundTrip, TheStockJkrOfLammpsHasItsStatedErrorAndCapture) {
   const RoundTrip trip(kRing);
-  const std::string lammps = trip.write("lammps", "lammps", "0.5,25", {"--stock"});
-  EXPECT_NE(trip.place().read("lammps/impact.lammps").find("damping viscoelastic"),
-            std::string::npos);
-  expect_the_stated_error(trip, lammps, [&](double v) { return trip.lammps("lammps", v); });
+  const std::string said = trip.write("lammps", "lammps", "0.5,25", {"--stock"});
+  expect_the_stated_error(trip, said, [&](double v) { return trip.lammps("lammps", v); });
+  const JkrByTime contact = jkr_in(trip.place().read("lammps/impact.lammps"));
+  for (const double v : RoundTrip::velocities) {
+    EXPECT_NEAR(trip.lammps("lammps", v), contact.restitution(v), 1e-3) << v;
+  }
+  const double capture = number_after(said, "Captures are kept, with V* = ");
+  EXPECT_EQ(trip.lammps("lammps", 0.99 * capture), 0.0);
+  EXPECT_GT(trip.lammps("lammps", 1.01 * capture), 0.0);
+}
+
+TEST(RoundTrip, WithoutAdhesionTheStockModelOfLammpsIsHertzWithItsStatedError) {
+  const RoundTrip trip("dataset = \"data\"\n[parameters]\nC_H = { initial = 3e-3 }\n", false);
+  const std::string said = trip.write("lammps", "lammps", "0.5,25", {"--stock"});
+  EXPECT_NE(trip.place().read("lammps/impact.lammps").find("hertz/material"), std::string::npos);
+  expect_the_stated_error(trip, said, [&](double v) { return trip.lammps("lammps", v); });
 }
 
 TEST(RoundTrip, ARefittedForceHasItsStatedErrorAndCapture) {
