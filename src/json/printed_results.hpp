@@ -330,7 +330,7 @@ struct PlanFile {
 
   struct Assumed { RECOIL_RESULT(
       (Named<Parameter>, parameters, "by name"),
-      (int, draws, "number of draws about these values for which the plan is made", "1"),
+      (int, draws, "number of draws about these values for which the plan is made"),
       (Ends, velocities, "slowest and fastest incident velocity", "m/s"),
       (double, scatter, "standard deviation of e of one impact, over e", "1"),
       (double, floor, "the part of it that does not depend on e", "1"),
