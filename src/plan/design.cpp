@@ -190,7 +190,9 @@ std::vector<int> after_exchanges(const DesignProblems& draws, std::vector<int> c
     }
     const auto tried =
         all.begin() + static_cast<std::ptrdiff_t>(std::min(tried_exchanges, all.size()));
-    std::ranges::partial_sort(all, tried, std::greater{}, &Exchange::gain);
+    std::partial_sort(
+        all.begin(), tried, all.end(),
+        [](const Exchange& one, const Exchange& other) { return one.gain > other.gain; });
     const auto made = std::find_if(all.begin(), tried, [&](const Exchange& exchange) {
       std::vector<int> next = counts;
       --next[exchange.from];

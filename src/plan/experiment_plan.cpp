@@ -35,7 +35,7 @@ constexpr double share_of_everywhere = 1e-6;
 /// The value that a share `p` of `values` does not exceed.
 double quantile(std::vector<double> values, double p) {
   const auto place = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, values.begin() + place);
+  std::nth_element(values.begin(), values.begin() + place, values.end());
   return values[static_cast<std::size_t>(place)];
 }
 
