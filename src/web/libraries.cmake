@@ -70,7 +70,8 @@ add_library(Ceres::ceres ALIAS web_ceres)
 
 # GSL wants a config.h from its configure script, and its sources by the side of its headers.
 web_library(web_gsl gsl-2* cdf/[b-z]*.c err/error.c err/stream.c err/message.c err/strerror.c
-  integration/glfixed.c interpolation/accel.c interpolation/interp.c interpolation/spline.c
+  integration/glfixed.c ode-initval2/driver.c ode-initval2/evolve.c ode-initval2/control.c
+  ode-initval2/cstd.c ode-initval2/cscal.c ode-initval2/step.c ode-initval2/rk8pd.c interpolation/accel.c interpolation/interp.c interpolation/spline.c
   interpolation/steffen.c interpolation/inline.c randist/gauss.c randist/tdist.c randist/gamma.c
   randist/chisq.c randist/exponential.c randist/gausszig.c rng/rng.c rng/inline.c roots/brent.c
   roots/convergence.c roots/fsolver.c specfunc/erfc.c specfunc/exp.c specfunc/expint.c
