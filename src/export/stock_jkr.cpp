@@ -55,6 +55,11 @@ StockImpact impact_under(const StockJkr& contact, double velocity) {
   constexpr int most_steps = 5000;  // an overdamped sphere creeps without a turning point
   const double parts = std::cbrt(3.0);
   gsl_errors_are_values();
+  const auto require = [&](int status) {
+    if (status == GSL_SUCCESS) return;
+    throw ComputationError(
+        fmt::format("the impact at V = {:.6g} m/s under jkr of LAMMPS", velocity));
+  };
   const StockJkr::Scales unit = contact.scales();
   const double fast = velocity / unit.velocity;
   Motion motion = {contact.damping * unit.radius * unit.length / unit.velocity, false};
@@ -69,17 +74,14 @@ StockImpact impact_under(const StockJkr& contact, double velocity) {
   for (int step = 0; step < most_steps && !(outward && y[1] >= 0.0); ++step) {
     double before[3];
     std::copy(std::begin(y), std::end(y), before);
-    if (gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &sigma, 1e9, &driver->h,
-                                y) != GSL_SUCCESS) {
-      throw ComputationError(
-          fmt::format("the impact at V = {:.6g} m/s under jkr of LAMMPS", velocity));
-    }
+    require(gsl_odeiv2_evolve_apply(driver->e, driver->c, driver->s, &system, &sigma, 1e9,
+                                    &driver->h, y));
     outward = outward || y[1] < 0.0;
     if (y[0] > parts || y[1] >= 0.0) continue;
     motion.over_depth = true;
     gsl_odeiv2_driver_reset_hstart(driver.get(), 0.1 * (parts - before[0]));
     double z = before[0];
-    gsl_odeiv2_driver_apply(driver.get(), &z, parts, before);
+    require(gsl_odeiv2_driver_apply(driver.get(), &z, parts, before));
     std::copy(before, before + 3, y);
     break;
   }

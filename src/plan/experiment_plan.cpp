@@ -28,11 +28,10 @@ constexpr double below_capture = 0.8, above_capture = 30.0;
 constexpr double hopeless_points = 1e6;
 constexpr double least_share = 0.05;  // least share in LearntAt
 constexpr double worst_share = 0.95;  // share of the draws in which an error is at most the worst
-// The part of one evenly spaced point that is taken as known, because the best experiment for a
-// single quantity can leave other parameters undetermined.
+// The part of one evenly spaced point that is taken as known.
 constexpr double share_of_everywhere = 1e-6;
 
-/// The value that a share `p` of `values` does not exceed.
+/// The value that a share `p` of `values` does not exceed: one of them, as some may be infinite.
 double quantile(std::vector<double> values, double p) {
   const auto place = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());
@@ -326,6 +325,10 @@ class Planner {
           possible_points(plan_.model, theta, parameters, std::move(at), scatter_);
       DesignProblem problem = {grid.rows(), parameters.known, asked};
       require_determined(problem);
+      // The best experiment for a single quantity can leave other parameters undetermined.
+      const auto places = static_cast<std::size_t>(problem.rows.rows());
+      problem.known = information_of(
+          problem, std::vector<double>(places, share_of_everywhere / static_cast<double>(places)));
       if (first) grid_ = std::move(grid);
       draws_.push_back(std::move(problem));
     } catch (const ComputationError&) {
@@ -333,9 +336,7 @@ class Planner {
     }
   }
 
-  /// Also adds a trace of information of every place, because the best experiment for a single
-  /// quantity can leave other parameters undetermined.
-  void require_determined(DesignProblem& problem) const {
+  void require_determined(const DesignProblem& problem) const {
     const auto count = static_cast<std::size_t>(problem.rows.rows());
     const Eigen::VectorXd variances = variances_of(
         problem, std::vector<double>(count, hopeless_points / static_cast<double>(count)));
@@ -350,8 +351,6 @@ class Planner {
           "add a --diameter, or fix a parameter in the fit file",
           plan_.options.slowest, plan_.options.fastest, fmt::join(lost, " and ")));
     }
-    problem.known = information_of(
-        problem, std::vector<double>(count, share_of_everywhere / static_cast<double>(count)));
   }
 
   /// The counts of `points` points: an evenly spaced share, and the best choice for the others.
