@@ -55,31 +55,68 @@ bool clearly_lower(double deviance, double other) {
   return deviance < other - equal_deviances * std::max(1.0, other);
 }
 
-/// The lowest end of the descents from `starts`, followed to its minimum unless it is `rough`. Some
-/// that end close to the lowest are followed, too: their minima may be lower.
+/// Do `residuals` differ from those of a fit by so little that no point could tell them apart? By
+/// at most a fifth of a standard error of the fit, over all points.
+bool same_fit(std::span<const double> residuals, const LeastSquaresResult& fit,
+              double times = 1.0) {
+  constexpr double negligible = 0.04;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    distance += std::pow(residuals[i] - fit.residuals[i], 2);
+  }
+  const auto n = static_cast<double>(residuals.size());
+  return distance <= times * negligible * fit.sum_of_squares / n;
+}
+
+/// The ends of the descents from `starts`. A descent that comes near the end of an earlier one, and
+/// whose next step leads to it, is broken off.
+std::vector<LeastSquaresResult> ends_of_descents(const LeastSquaresProblem& problem,
+                                                 const std::vector<std::vector<double>>& starts,
+                                                 LeastSquaresOptions options) {
+  constexpr double near = 250.0;
+  std::vector<LeastSquaresResult> ends;
+  bool known = false;
+  options.stop = [&](std::span<const double> now, std::span<const double> after) {
+    known = std::ranges::any_of(ends, [&](const LeastSquaresResult& end) {
+      return same_fit(now, end, near) && same_fit(after, end);
+    });
+    return known;
+  };
+  for (const std::vector<double>& start : starts) {
+    known = false;
+    LeastSquaresResult run = minimise(problem, start, options);
+    if (known) continue;
+    if (!run.ended() && std::isfinite(run.sum_of_squares)) {
+      run = minimise(problem, run.theta, careful_descent());
+    }
+    if (run.ended() && std::isfinite(run.sum_of_squares)) ends.push_back(std::move(run));
+  }
+  return ends;
+}
+
+/// The lowest end of the descents from `starts`, followed to its minimum unless it is `rough`.
+/// Other fits that are close to the lowest are followed, too: their minima may be lower.
 LeastSquaresResult best_descent(const LeastSquaresProblem& problem,
                                 const std::vector<std::vector<double>>& starts, bool rough) {
   constexpr std::size_t most_followed = 3;
   constexpr double known_to = 1e-3;  // relative; the deviance at the end of a rough descent
   const bool twice = !rough && starts.size() > 1;
-  const LeastSquaresOptions options = rough || twice ? descent() : last_descent();
-  std::vector<LeastSquaresResult> runs;
-  for (const std::vector<double>& start : starts) {
-    LeastSquaresResult run = minimise(problem, start, options);
-    if (!run.ended() && std::isfinite(run.sum_of_squares)) {
-      run = minimise(problem, run.theta, careful_descent());
-    }
-    if (run.ended() && std::isfinite(run.sum_of_squares)) runs.push_back(std::move(run));
-  }
+  std::vector<LeastSquaresResult> runs =
+      ends_of_descents(problem, starts, rough || twice ? descent() : last_descent());
   if (runs.empty()) return {};
   std::ranges::stable_sort(runs, {}, &LeastSquaresResult::sum_of_squares);
   if (!twice) return std::move(runs.front());
   const double close = runs.front().sum_of_squares * (1.0 + known_to);
   LeastSquaresResult best;
-  for (std::size_t k = 0; k < std::min(most_followed, runs.size()); ++k) {
-    if (runs[k].sum_of_squares > close) break;
-    LeastSquaresResult last = minimise(problem, runs[k].theta, last_descent());
-    if (!last.ended() || last.sum_of_squares > runs[k].sum_of_squares) last = std::move(runs[k]);
+  std::vector<LeastSquaresResult> followed;
+  for (LeastSquaresResult& run : runs) {
+    if (followed.size() == most_followed || run.sum_of_squares > close) break;
+    if (std::ranges::any_of(followed, [&](const auto& f) { return same_fit(run.residuals, f); })) {
+      continue;
+    }
+    LeastSquaresResult last = minimise(problem, run.theta, last_descent());
+    followed.push_back(run);
+    if (!last.ended() || last.sum_of_squares > run.sum_of_squares) last = std::move(run);
     if (!best.ended() || clearly_lower(last.sum_of_squares, best.sum_of_squares)) {
       best = std::move(last);
     }

@@ -69,6 +69,7 @@ struct Separation {
 struct CandidateResult {
   Candidate candidate;
   Refit refit;
+  std::vector<double> exact_theta;  ///< theta of its refit with exact laws; empty: not computed
   MechanismKind kind = MechanismKind::physics;
   std::vector<FoundParameter> parameters;
   double delta_aicc = 0.0;        ///< criterion minus that of the base model: negative is better

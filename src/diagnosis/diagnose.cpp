@@ -503,7 +503,7 @@ void add_exact_answer(const SearchBase& allowed, Diagnosis& diagnosis) {
   DiagnosisOptions options = allowed.options;
   options.answer_alone = options.single_causes = true;
   options.kept.reset();  // their pieces are others
-  const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, options);
+  const SearchBase base = with_exact_laws(allowed, spec, options);
   if (!base.refit.usable) return;
   IfExact& found = diagnosis.if_exact.emplace();
   found.p_value = quick_p_value(base, base.refit);

@@ -98,6 +98,18 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), rank);
 }
 
+/// Sets the errors of the laws that `base.spec` states, the refits under them and their criterion.
+void allow_errors_of_laws(SearchBase& base) {
+  const FitResult& fitted = base.fitted;
+  base.laws = allowed_law_errors(base.spec.law_error, fitted.data);
+  base.first = refit_with_law_error(base.candidate, fitted.data, fitted.weights, base.exact,
+                                    base.laws, base.laws.sizes.front().size);
+  RefitOverLaws over =
+      refit_over_laws(base.candidate, fitted.data, fitted.weights, base.exact, base.laws);
+  base.refit = std::move(over.refit);
+  base.criterion = over.criterion;
+}
+
 }  // namespace
 
 FitSpec with_constants_adjusted(FitSpec spec) {
@@ -116,21 +128,25 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
                   make_candidate(spec, datasets, {}),
                   {},
                   {},
+                  {},
                   0.0,
                   1.0,
                   white_noise(quick_samples, estimated.data.points.size(), options.seed),
                   options};
-  const FitResult& fitted = base.fitted;
-  base.laws = allowed_law_errors(spec.law_error, fitted.data);
-  base.candidate.model.solver = fitted.model.solver;
-  const Refit exact = refit_candidate(base.candidate, fitted.data, fitted.weights, fitted.theta, 1);
-  base.first = refit_with_law_error(base.candidate, fitted.data, fitted.weights, exact, base.laws,
-                                    base.laws.sizes.front().size);
-  RefitOverLaws over =
-      refit_over_laws(base.candidate, fitted.data, fitted.weights, exact, base.laws);
-  base.refit = std::move(over.refit);
-  base.criterion = over.criterion;
-  if (!fitted.data.noise.sd_stated) base.noise_scale = fitted.noise_scale;
+  base.candidate.model.solver = base.fitted.model.solver;
+  base.exact =
+      refit_candidate(base.candidate, base.fitted.data, base.fitted.weights, base.fitted.theta, 1);
+  if (!base.fitted.data.noise.sd_stated) base.noise_scale = base.fitted.noise_scale;
+  allow_errors_of_laws(base);
+  return base;
+}
+
+SearchBase with_exact_laws(const SearchBase& allowed, const FitSpec& spec,
+                           const DiagnosisOptions& options) {
+  SearchBase base{
+      spec, allowed.datasets,    allowed.fitted, {},      allowed.candidate, allowed.exact, {}, {},
+      0.0,  allowed.noise_scale, allowed.noise,  options, allowed.exact_fits};
+  allow_errors_of_laws(base);
   return base;
 }
 

@@ -2,12 +2,14 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
+#include "diagnosis/exact_fits.hpp"
 #include "diagnosis/law_errors.hpp"
 #include "diagnosis/structure.hpp"
 
@@ -20,12 +22,14 @@ struct SearchBase {
   FitResult fitted;          ///< every candidate is fitted to its `data`
   LawErrors laws;            ///< the allowed errors of every model
   Candidate candidate;       ///< the base model, without added mechanisms
-  Refit first;               ///< the refit under the smallest error of the laws
+  Refit exact;               ///< the refit with exact laws
+  Refit first;               ///< under the smallest error of the laws
   Refit refit;               ///< under the likeliest
   double criterion = 0.0;    ///< averaged over the errors of the laws
   double noise_scale = 1.0;  ///< noise scale of the base; 1 if standard deviations are stated
   Samples noise;             ///< white noise, for `quick_structure`
   const DiagnosisOptions& options;
+  std::shared_ptr<ExactFits> exact_fits = std::make_shared<ExactFits>();
 };
 
 /// `spec` with material constants that the points move, even if the fit holds them, so that no
@@ -34,6 +38,11 @@ FitSpec with_constants_adjusted(FitSpec spec);
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& fitted, const DiagnosisOptions& options);
+
+/// The search of `allowed` with exact laws: the same points, weights and fits of candidates.
+/// @param spec that of `allowed` with a law_error of 0
+SearchBase with_exact_laws(const SearchBase& allowed, const FitSpec& spec,
+                           const DiagnosisOptions& options);
 
 /// Simulates new readings of the sample if the true e^2 is `squares`, with the loss 1 - e^2
 /// multiplied by a smooth random factor 1 + g with sd `bend` of g [1]. `index` numbers the draws.

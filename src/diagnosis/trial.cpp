@@ -117,8 +117,11 @@ bool can_be_released(const Candidate& candidate) {
 }
 
 /// The properties and the gain of a fitted candidate.
-CandidateResult examine(const SearchBase& base, Candidate candidate, RefitOverLaws over) {
+/// @param exact theta with exact laws
+CandidateResult examine(const SearchBase& base, Candidate candidate, RefitOverLaws over,
+                        std::vector<double> exact) {
   CandidateResult result = described(base, std::move(candidate), std::move(over.refit), 0.0);
+  result.exact_theta = std::move(exact);
   if (!result.refit.usable) return result;
   result.delta_aicc = over.criterion - base.criterion;
   result.remaining_part = remaining_part_of(base, result.candidate, over.first_chi2);
@@ -138,9 +141,11 @@ void find_remaining_p(const SearchBase& base, CandidateResult& result) {
       quick_structure(data, base.fitted.weights, result.refit, squares, base.noise).p_value;
 }
 
-/// Start values for `to` from the fit `from`, with free slots clamped to their bounds.
-std::vector<double> start_from(const CandidateResult& from, const Candidate& to) {
-  std::vector<double> theta = carried_over(from.candidate.model, from.refit.theta, to.model);
+/// Start values for `to` from `fitted`, parameters of `from`, with free slots clamped to their
+/// bounds.
+std::vector<double> start_from(const Candidate& from, std::span<const double> fitted,
+                               const Candidate& to) {
+  std::vector<double> theta = carried_over(from.model, fitted, to.model);
   for (std::size_t j = 0; j < theta.size(); ++j) {
     const ParameterSlot& slot = to.model.slots[j];
     if (slot.free) theta[j] = std::clamp(theta[j], slot.lower, slot.upper);
@@ -155,7 +160,7 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   const bool pair = result.candidate.added.size() > 1;
   Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
   if (!can_be_seen(base, released)) return;
-  const std::vector<double> near = start_from(result, released);
+  const std::vector<double> near = start_from(result.candidate, result.exact_theta, released);
   CandidateResult other = try_one(base, std::move(released), near, tries);
   if (other.refit.usable && other.delta_aicc < result.delta_aicc - worth_releasing) {
     result = std::move(other);
@@ -168,7 +173,7 @@ void judge_possible_values(const SearchBase& base, CandidateResult& result) {
   if (!result.refit.usable || !result.only_by_error) return;
   Candidate held = make_candidate(base.spec, base.datasets, result.candidate.added,
                                   result.candidate.released, true);
-  const std::vector<double> near = start_from(result, held);
+  const std::vector<double> near = start_from(result.candidate, result.exact_theta, held);
   const CandidateResult possible = try_one(base, std::move(held), near, tries_alone);
   if (!possible.refit.usable) return;
   result.cost_of_possible = possible.delta_aicc - result.delta_aicc;
@@ -259,7 +264,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
   });
   if (never_acts) return {};
   const std::vector<double> near =
-      carried_over(base.candidate.model, base.refit.theta, candidate.model);
+      carried_over(base.candidate.model, base.exact.theta, candidate.model);
   if (!can_be_seen(base, candidate) || !can_matter(base, mechanism, candidate, near)) return {};
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
@@ -306,8 +311,9 @@ void screen(const SearchBase& base, Screening& screening) {
   if (screening.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
   if (!can_be_seen(base, screening.both)) return;
   for (const CandidateResult* from : {screening.first, screening.second}) {
-    Refit refit = refit_candidate(screening.both, data, base.fitted.weights,
-                                  start_from(*from, screening.both), 1);
+    Refit refit =
+        refit_candidate(screening.both, data, base.fitted.weights,
+                        start_from(from->candidate, from->refit.theta, screening.both), 1);
     if (refit.usable && !(screening.refit.usable && screening.refit.chi2 <= refit.chi2)) {
       screening.refit = std::move(refit);
     }
@@ -356,7 +362,8 @@ CandidateResult try_both(const SearchBase& base, Screening screening, bool follo
   const auto over_laws = follow ? refit_over_laws : screen_over_laws;
   RefitOverLaws over =
       over_laws(screening.both, data, base.fitted.weights, screening.refit, base.laws);
-  CandidateResult result = examine(base, std::move(screening.both), std::move(over));
+  CandidateResult result =
+      examine(base, std::move(screening.both), std::move(over), screening.refit.theta);
   if (follow) try_released(base, result, tries_in_pairs);
   find_remaining_p(base, result);
   if (!follow) {
@@ -410,10 +417,13 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
 
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries) {
-  RefitOverLaws over = refit_over_laws(
-      candidate, base.fitted.data, base.fitted.weights,
-      refit_candidate(candidate, base.fitted.data, base.fitted.weights, near, tries), base.laws);
-  return examine(base, std::move(candidate), std::move(over));
+  const Observations& data = base.fitted.data;
+  const Weights& weights = base.fitted.weights;
+  const Refit exact = base.exact_fits->of(candidate, near, tries, [&] {
+    return refit_candidate(candidate, data, weights, near, tries);
+  });
+  RefitOverLaws over = refit_over_laws(candidate, data, weights, exact, base.laws);
+  return examine(base, std::move(candidate), std::move(over), exact.theta);
 }
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {

@@ -149,6 +149,11 @@ class BoxDescent {
       }
       LeastSquaresResult trial = moved(d);
       const Eigen::VectorXd expected = residuals_ + jacobian_ * d;
+      if (options.stop &&
+          options.stop(result_.residuals, std::vector(expected.begin(), expected.end()))) {
+        result_.end = DescentEnd::limit;
+        return ended("stopped");
+      }
       const double promised = result_.sum_of_squares - expected.squaredNorm();
       // Geometric extrapolation: the ratio of the remaining decrease to that of this step equals
       // the ratio of this step's decrease to that of the step before.

@@ -57,6 +57,9 @@ struct LeastSquaresOptions {
   double close_enough = 3e-7;
   /// First radius of the trust region, in parameters scaled by the Jacobian.
   double first_radius = 1e4;
+  /// If set, box_descent asks it before every step, with the residuals there and those that the
+  /// linearised problem has after the step, and ends as `limit` if it is true.
+  std::function<bool(std::span<const double> now, std::span<const double> after)> stop;
 };
 
 /// How a minimisation ended.
@@ -64,7 +67,7 @@ enum class DescentEnd {
   minimum,    ///< a minimum that the residuals determine
   valley,     ///< a minimum at which some combination of parameters has no effect
   flat,       ///< the residuals do not depend on a parameter: its value is undetermined
-  limit,      ///< the iteration limit was reached
+  limit,      ///< the iteration limit was reached, or `stop` was true
   no_answer,  ///< the residuals cannot be evaluated
 };
 constexpr auto names_of_values(DescentEnd) {
