@@ -58,19 +58,6 @@ void draw_capture(Observation& point, const PointWeights& weights, double square
   point.restitution = reading;
 }
 
-/// The Jacobian of the residuals at `theta`, whitened by the covariance of the base [at least
-/// points x slots].
-std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
-                                const std::vector<double>& theta) {
-  const LeastSquaresProblem problem =
-      whitened(impact_problem(candidate.model, base.fitted.data, base.fitted.weights),
-               *base.refit.discrepancy);
-  std::vector<double> residuals(problem.residual_count);
-  std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
-  if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
-  return jacobian;
-}
-
 /// The columns `chosen` of the first `points` rows of a Jacobian, scaled to unit length.
 Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
                              std::size_t slots, const std::vector<std::size_t>& chosen) {
@@ -112,6 +99,17 @@ void allow_errors_of_laws(SearchBase& base) {
 
 }  // namespace
 
+std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
+                                const std::vector<double>& theta) {
+  const LeastSquaresProblem problem =
+      whitened(impact_problem(candidate.model, base.fitted.data, base.fitted.weights),
+               *base.refit.discrepancy);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
+  if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
+  return jacobian;
+}
+
 FitSpec with_constants_adjusted(FitSpec spec) {
   if (spec.uncertainty.materials != Materials::exact) {
     spec.uncertainty.materials = Materials::adjusted;
@@ -121,18 +119,14 @@ FitSpec with_constants_adjusted(FitSpec spec) {
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& estimated, const DiagnosisOptions& options) {
-  SearchBase base{spec,
-                  datasets,
-                  with_rough_settings(spec, datasets, estimated),
-                  {},
-                  make_candidate(spec, datasets, {}),
-                  {},
-                  {},
-                  {},
-                  0.0,
-                  1.0,
-                  white_noise(quick_samples, estimated.data.points.size(), options.seed),
-                  options};
+  SearchBase base{
+      .spec = spec,
+      .datasets = datasets,
+      .fitted = with_rough_settings(spec, datasets, estimated),
+      .candidate = make_candidate(spec, datasets, {}),
+      .noise = white_noise(quick_samples, estimated.data.points.size(), options.seed),
+      .options = options,
+  };
   base.candidate.model.solver = base.fitted.model.solver;
   base.exact =
       refit_candidate(base.candidate, base.fitted.data, base.fitted.weights, base.fitted.theta, 1);
@@ -144,8 +138,16 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 SearchBase with_exact_laws(const SearchBase& allowed, const FitSpec& spec,
                            const DiagnosisOptions& options) {
   SearchBase base{
-      spec, allowed.datasets,    allowed.fitted, {},      allowed.candidate, allowed.exact, {}, {},
-      0.0,  allowed.noise_scale, allowed.noise,  options, allowed.exact_fits};
+      .spec = spec,
+      .datasets = allowed.datasets,
+      .fitted = allowed.fitted,
+      .candidate = allowed.candidate,
+      .exact = allowed.exact,
+      .noise_scale = allowed.noise_scale,
+      .noise = allowed.noise,
+      .options = options,
+      .exact_fits = allowed.exact_fits,
+  };
   allow_errors_of_laws(base);
   return base;
 }

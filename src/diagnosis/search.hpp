@@ -20,11 +20,11 @@ struct SearchBase {
   const FitSpec& spec;
   const std::vector<Dataset>& datasets;
   FitResult fitted;          ///< every candidate is fitted to its `data`
-  LawErrors laws;            ///< the allowed errors of every model
+  LawErrors laws{};          ///< the allowed errors of every model
   Candidate candidate;       ///< the base model, without added mechanisms
-  Refit exact;               ///< the refit with exact laws
-  Refit first;               ///< under the smallest error of the laws
-  Refit refit;               ///< under the likeliest
+  Refit exact{};             ///< the refit with exact laws
+  Refit first{};             ///< under the smallest error of the laws
+  Refit refit{};             ///< under the likeliest
   double criterion = 0.0;    ///< averaged over the errors of the laws
   double noise_scale = 1.0;  ///< noise scale of the base; 1 if standard deviations are stated
   Samples noise;             ///< white noise, for `quick_structure`
@@ -43,6 +43,11 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 /// @param spec that of `allowed` with a law_error of 0
 SearchBase with_exact_laws(const SearchBase& allowed, const FitSpec& spec,
                            const DiagnosisOptions& options);
+
+/// The Jacobian of the residuals at `theta`, whitened by the covariance of `base.refit` [at least
+/// points x slots]; zero if the residuals cannot be computed.
+std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
+                                const std::vector<double>& theta);
 
 /// Simulates new readings of the sample if the true e^2 is `squares`, with the loss 1 - e^2
 /// multiplied by a smooth random factor 1 + g with sd `bend` of g [1]. `index` numbers the draws.

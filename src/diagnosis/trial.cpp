@@ -153,6 +153,38 @@ std::vector<double> start_from(const Candidate& from, std::span<const double> fi
   return theta;
 }
 
+/// Does what `candidate` adds vanish in this fit?
+bool vanishes(const Candidate& candidate, const Refit& fit) {
+  for (std::size_t j = 0; j < fit.theta.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (!slot.free || !candidate.adds(slot)) continue;
+    const double null = std::clamp(slot.parameter->null_value, slot.lower, slot.upper);
+    if (fit.moving[j] || fit.theta[j] != null) return false;
+  }
+  return true;
+}
+
+/// The refit, under the errors of laws, of a candidate that vanishes with exact laws: that of the
+/// base, at the cost of the parameters. Larger errors do not make an effect appear.
+RefitOverLaws as_the_base(const SearchBase& base, const Candidate& candidate, const Refit& exact) {
+  RefitOverLaws over{exact, base.criterion, base.first.chi2};
+  const Refit& of_base = base.refit;
+  over.refit.theta = start_from(base.candidate, of_base.theta, candidate);
+  for (std::size_t j = 0; j < exact.theta.size(); ++j) {
+    if (candidate.adds(candidate.model.slots[j])) over.refit.theta[j] = exact.theta[j];
+  }
+  over.refit.chi2 = of_base.chi2;
+  over.refit.residuals = of_base.residuals;
+  over.refit.discrepancy = of_base.discrepancy;
+  over.refit.law_error = of_base.law_error;
+  over.refit.jacobian = jacobian_at(base, candidate, over.refit.theta);
+  const auto cost = [&](int parameters) {
+    return corrected_criterion(base.fitted.data, 1.0, parameters);
+  };
+  over.criterion += cost(candidate.free_count) - cost(base.candidate.free_count);
+  return over;
+}
+
 /// Replaces `result` by a fit with released parameters if its criterion is better by more than 2.
 void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
@@ -422,7 +454,9 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
   const Refit exact = base.exact_fits->of(candidate, near, tries, [&] {
     return refit_candidate(candidate, data, weights, near, tries);
   });
-  RefitOverLaws over = refit_over_laws(candidate, data, weights, exact, base.laws);
+  RefitOverLaws over = exact.usable && vanishes(candidate, exact)
+                           ? as_the_base(base, candidate, exact)
+                           : refit_over_laws(candidate, data, weights, exact, base.laws);
   return examine(base, std::move(candidate), std::move(over), exact.theta);
 }
 
