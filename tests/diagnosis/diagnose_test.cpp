@@ -325,6 +325,51 @@ std::map<std::string, double> criteria(const FitSpec& spec, const std::vector<Da
   return found;
 }
 
+/// The search with exact laws takes the fits that the search before it made.
+TEST(Diagnose, FindsWithExactLawsWhatASearchOfItsOwnFinds) {
+  const std::vector<Dataset> data = {noisy(3, 0.008, with_dip)};
+  FitSpec exact = synthetic::spec();
+  const FitResult fitted = fit(make_model(exact, data), gather(data, exact.noise));
+  const DiagnosisOptions options;
+  const FitSpec spec = exact;
+  const SearchBase allowed = search_base(spec, data, fitted, options);
+  const std::vector<CandidateResult> first = try_singles(allowed);
+  exact.law_error = 0.0;
+  const std::vector<CandidateResult> after = try_singles(with_exact_laws(allowed, exact, options));
+  const std::vector<CandidateResult> own = try_singles(search_base(exact, data, fitted, options));
+  ASSERT_EQ(after.size(), own.size());
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    EXPECT_EQ(after[k].candidate.name(), own[k].candidate.name());
+    EXPECT_EQ(after[k].delta_aicc, own[k].delta_aicc) << own[k].candidate.name();
+    EXPECT_EQ(after[k].refit.theta, own[k].refit.theta) << own[k].candidate.name();
+  }
+}
+
+/// A mechanism without effect leaves chi2 as it is; its criterion is worse by the correction of
+/// Hurvich & Tsai (1989) for one parameter more, whatever errors of the laws are allowed.
+TEST(Diagnose, AMechanismWithoutEffectCostsItsParameter) {
+  const std::vector<Dataset> data = {noisy(3, 0.008, with_dip)};
+  const FitSpec spec = synthetic::spec();
+  const FitResult fitted = fit(make_model(spec, data), gather(data, spec.noise));
+  const DiagnosisOptions options;
+  const SearchBase base = search_base(spec, data, fitted, options);
+  const double n = static_cast<double>(data.front().points.size());
+  const double k = base.candidate.free_count;
+  const auto cost = [n](double parameters) {
+    return 2.0 * parameters + 2.0 * parameters * (parameters + 1.0) / (n - parameters - 1.0);
+  };
+  int without = 0;
+  for (const CandidateResult& c : try_singles(base)) {
+    const bool one = c.candidate.free_count == base.candidate.free_count + 1;
+    const bool vanishes =
+        std::ranges::all_of(c.parameters, [](const FoundParameter& p) { return p.value == 0.0; });
+    if (!one || !vanishes || c.candidate.released) continue;
+    EXPECT_NEAR(c.delta_aicc, cost(k + 1) - cost(k), 1e-9) << c.candidate.name();
+    ++without;
+  }
+  EXPECT_GT(without, 2);
+}
+
 /// A start that is off by a part in 1000 rounds differently, as another library does.
 TEST(Diagnose, NoNumberOfACandidateDependsOnItsStart) {
   const Dataset data = noisy(3, 0.008, with_dip);

@@ -206,6 +206,31 @@ TEST(Boxed, InLogarithmsToABoundAndToTheMinimum) {
   EXPECT_NEAR(held.theta[0], along / square, 1e-7);
 }
 
+/// It is asked with the residuals where it stands, and with those of the linearised problem.
+TEST(Boxed, StopEndsTheDescentWhereItIsTrue) {
+  int evaluations = 0;
+  const LeastSquaresProblem problem = noisy_decay(3.0, 0.4, evaluations);
+  const LeastSquaresResult whole = minimise(problem, std::array{1.0, 1.0}, boxed());
+  const int needed = std::exchange(evaluations, 0);
+  const auto distance = [&](std::span<const double> residuals) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 8; ++i) sum += std::pow(residuals[i] - whole.residuals[i], 2);
+    return sum;
+  };
+  LeastSquaresOptions options = boxed();
+  double now_at = 0.0;
+  options.stop = [&](std::span<const double> now, std::span<const double> after) {
+    now_at = distance(now);
+    return distance(after) < 1.0;
+  };
+  const LeastSquaresResult stopped = minimise(problem, std::array{1.0, 1.0}, options);
+  EXPECT_EQ(stopped.end, DescentEnd::limit);
+  EXPECT_FALSE(stopped.ended());
+  EXPECT_LT(evaluations, needed);
+  EXPECT_NEAR(distance(stopped.residuals), now_at, 1e-9);
+  EXPECT_GT(now_at, 1.0);
+}
+
 TEST(Boxed, NoAnswerAtTheStartIsSaid) {
   LeastSquaresProblem problem = unbounded(2, 1);
   problem.evaluate = [](std::span<const double>, std::span<double>, std::span<double>) {
