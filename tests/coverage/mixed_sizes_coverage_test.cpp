@@ -64,7 +64,7 @@ TEST(MixedSizes, SimulatedTruthsLieInTheIntervals) {
   int held_A = 0;
   double sum = 0.0;
   FitOptions options;
-  options.several_starts = false;  // the truth is near the first
+  options.several_starts = false;  // the one of the fit file
   for (std::uint64_t s = 0; s < sets; ++s) {
     const std::vector<Dataset> made = truth.simulate(s);
     const FitResult fitted = fit(make_model(own.spec, made), gather(made, own.spec), options);
