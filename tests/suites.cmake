@@ -1,7 +1,8 @@
 # Writes ctest entries for one GoogleTest program: one entry per suite, and one entry per test for
-# the suites in APART, whose tests are long and run beside each other. Where ONLY names suites, the
+# the suites in APART, whose tests are long and run beside each other. Those in FIRST start before
+# all others. Where ONLY names suites, the
 # others have no entry.
-#   cmake -DPROGRAM=path -DNAME=cli_test -DAPART="Suite Other" -DONLY="" -DPROPERTIES="..." -DOUT=file
+#   cmake -DPROGRAM=path -DNAME=cli_test -DAPART="Suite Other" -DFIRST="" -DONLY="" -DPROPERTIES="..." -DOUT=file
 #         -P suites.cmake
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed
@@ -9,6 +10,7 @@ execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed
 string(REPLACE ";" "\\;" listed "${listed}")
 string(REPLACE "\n" ";" lines "${listed}")
 separate_arguments(apart UNIX_COMMAND "${APART}")
+separate_arguments(first UNIX_COMMAND "${FIRST}")
 separate_arguments(only UNIX_COMMAND "${ONLY}")
 set(script "")
 
@@ -29,6 +31,8 @@ foreach(line ${lines})
       continue()
     elseif(plain IN_LIST apart)
       set(split ON)
+    elseif(plain IN_LIST first)
+      add_entry(${suite} "${suite}.*" 100)
     else()
       add_entry(${suite} "${suite}.*" 1)
     endif()

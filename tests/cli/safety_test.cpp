@@ -343,7 +343,8 @@ TEST(Safety, LimitsAndHangUpsKeepWhatIsFinished) {
     const Workplace place;
     const fs::path kept = place / "out/unfinished-fit.json.jsonl";
     Started run({"fit", "fit.toml", "--replicates", "1000000", "--out", "out"}, place.path());
-    ASSERT_TRUE(run.wait_until([&] { return fs::exists(kept); }));
+    ASSERT_TRUE(run.wait_until([&] { return fs::exists(place / "out/fit.json.lock"); }));
+    ASSERT_TRUE(run.wait_until_worked(std::chrono::seconds(1)));
     run.send(signal);
     EXPECT_EQ(run.end().status, 128 + signal);
     EXPECT_TRUE(fs::exists(kept));

@@ -146,7 +146,7 @@ TEST(ClosedForm, LossAtHighVelocity) {
 /// w* by bisection on the sign of the energy left.
 double capture_by_bisection(double h, double g, AdhesionDampingPhase phase) {
   double low = 1e-4, high = 5.0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 26; ++i) {  // to 2e-7; each step is a slow impact, near capture
     const double middle = std::sqrt(low * high);
     (in_adhesion_units(middle, h, g, phase).restitution_squared > 0.0 ? high : low) = middle;
   }

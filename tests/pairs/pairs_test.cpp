@@ -38,7 +38,8 @@ using pairs::Choice;
 using pairs::Pair;
 using support::TemporaryFolder;
 
-constexpr unsigned seed_of_the_table = 1;
+// Of sixty, the one whose table has least often several slow features in one fit.
+constexpr unsigned seed_of_the_table = 34;
 
 /// The pairs that no fit of the table has.
 std::vector<Pair> missing_pairs() {
@@ -436,6 +437,10 @@ std::vector<Question> questions(int count) {
     const std::set<std::string> slow_mechanisms = {"survivor_bias", "adhesion_hysteresis"};
     if (slow_mechanisms.contains(question.choice["mechanism"]) && !slow) {
       question.choice["mechanism"] = "none";
+    }
+    // An average over the error of the laws is a dozen fits, each with many impacts of adhesion.
+    if (question.choice["materials"] == "averaged" && question.choice["law"] != "none" && !slow) {
+      question.choice["materials"] = "adjusted";
     }
     if (question.choice["sizes"] == "mixed") question.choice["sizes"] = "several";
     question.wrong_law = random() % 3 == 0;

@@ -98,13 +98,13 @@ class Grid:
         values = experiment.squares(self.middle + self.half * mesh)
         fit = np.linalg.inv(chebyshev.chebvander(nodes, degree))
         cube = values.reshape(degree + 1, degree + 1, -1)
-        self.coefficients = np.einsum("ai,bj,ijn->nab", fit, fit, cube)
+        self.coefficients = np.einsum("ai,bj,ijn->abn", fit, fit, cube).reshape(-1, cube.shape[2])
         self.degree = degree
 
     def __call__(self, thetas):
         """e^2 [thetas][points]"""
         x, y = np.swapaxes(chebyshev.chebvander((thetas - self.middle) / self.half, self.degree), 0, 1)
-        return np.einsum("wa,wb,nab->wn", x, y, self.coefficients, optimize=True)
+        return (x[:, :, None] * y[:, None, :]).reshape(len(x), -1) @ self.coefficients
 
 
 def deviance_of_means(experiment, m):

@@ -2,15 +2,15 @@
 // without noise the fitter, given the right mechanism, must leave little of the misfit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 
+#include "analysis/analysis.hpp"
 #include "core/files.hpp"
+#include "estimate/law_average.hpp"
 #include "mechanism/mechanism.hpp"
-#include "support/command.hpp"
 #include "validation/synthetic/case.hpp"
 #include "validation/synthetic/hidden_effect.hpp"
 
@@ -55,18 +55,19 @@ TEST_P(Agreement, TheCatalogueTakesTheEffectUp) {
   const std::string parameters = "[parameters]\n";
   text.insert(text.find(parameters) + parameters.size(), p.variant);
   recoil::write_whole_file(fit, text, recoil::Replacing::data);
-  const support::Outcome run =
-      support::run_recoil({"fit", fit.string(), "--replicates", "0", "--threads", "1", "--out",
-                           (scratch.path() / "out").string()},
-                          scratch.path());
-  ASSERT_EQ(run.status, 0) << run.err;
-  std::ifstream in(scratch.path() / "out" / "fit.json");
-  const nlohmann::json result = nlohmann::json::parse(in);
-  const double left = std::sqrt(result["goodness"]["chi2"].get<double>());
+  const recoil::FitInputs inputs = recoil::load_inputs(fit);
+  const recoil::FitResult fitted =
+      recoil::fit_as_stated(inputs.spec, recoil::make_model(inputs.spec, inputs.datasets),
+                            recoil::gather(inputs.datasets, inputs.spec));
+  ASSERT_TRUE(fitted.usable) << fitted.failure;
+  const double left = std::sqrt(fitted.chi2);
   EXPECT_LT(left, p.misfit_within * made.refit.signal_to_noise);
   const double strength = made.strengths.front();
   const double expected = p.inverse ? p.factor / strength : p.factor * strength;
-  const double value = result["parameters"][p.parameter]["value"];
+  const auto& slots = fitted.model.slots;
+  const auto slot = std::ranges::find(slots, p.parameter, &recoil::ParameterSlot::label);
+  ASSERT_NE(slot, slots.end());
+  const double value = fitted.theta[static_cast<std::size_t>(slot - slots.begin())];
   EXPECT_NEAR(value / expected, 1.0, p.value_within) << value << " for " << expected;
 }
 
