@@ -438,10 +438,6 @@ std::vector<Question> questions(int count) {
     if (slow_mechanisms.contains(question.choice["mechanism"]) && !slow) {
       question.choice["mechanism"] = "none";
     }
-    // An average over the error of the laws is a dozen fits, each with many impacts of adhesion.
-    if (question.choice["materials"] == "averaged" && question.choice["law"] != "none" && !slow) {
-      question.choice["materials"] = "adjusted";
-    }
     if (question.choice["sizes"] == "mixed") question.choice["sizes"] = "several";
     question.wrong_law = random() % 3 == 0;
     question.outlier = random() % 4 == 0;
