@@ -34,7 +34,8 @@ CoverageTruth exact_truth(const LawDesign& design) {
 }
 
 /// The fit to simulated data set `index`, with the errors of the materials as `materials` says. It
-/// starts near the truth alone: other starts could only find a smaller sum of squares.
+/// starts at the values of the fit file alone: other starts could only find a smaller sum of
+/// squares.
 FitResult fit_of(const LawDesign& design, const CoverageTruth& truth, std::uint64_t index,
                  Materials materials) {
   FitSpec spec = design.spec;
