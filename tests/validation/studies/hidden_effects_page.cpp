@@ -226,6 +226,31 @@ std::vector<Block> foreword(const StudyTally& tally) {
   return blocks;
 }
 
+Table allowance_table(const std::vector<AllowanceRow>& rows) {
+  using Row = const AllowanceRow&;
+  return study_table<AllowanceRow>(
+      rows, {{"the laws were", [](Row row) { return word_cell(row.truth); }, true},
+             {"named", [](Row row) { return share(row.named); }},
+             {"wrong", [](Row row) { return share(row.wrong); }},
+             {"named, laws taken for exact", [](Row row) { return share(row.exact_named); }},
+             {"wrong, laws taken for exact", [](Row row) { return share(row.exact_wrong); }}});
+}
+
+std::vector<Block> allowance_blocks(const StudyTally& tally) {
+  std::vector<Block> blocks;
+  if (tally.allowance) {
+    blocks.emplace_back(Paragraph{
+        "Every explanation is averaged over the errors that the laws may have, of the base model "
+        "from 3 to 12 % of its losses, and of a mechanism 10 % of its effect. What this costs is "
+        "power where the laws are exact; what it brings is fewer wrong names where they are not. "
+        "Visible effects; beside it the answer of one who takes all laws for exact:"});
+    blocks.emplace_back(allowance_table(*tally.allowance));
+  }
+  blocks.emplace_back(Paragraph{"All effects together, by strength; the laws were exact here:"});
+  blocks.emplace_back(strength_table(tally, Arm::effect));
+  return blocks;
+}
+
 Sentence times_words(const std::optional<Times>& times) {
   if (!times) return "No diagnosis was made.";
   return say(
@@ -375,12 +400,7 @@ Document page_of(const StudyTally& tally) {
     }
     if (blocks.size() > words) section(std::move(title), std::move(blocks));
   };
-  section(
-      "What the errors of the laws cost",
-      {Paragraph{"The losses of the base model are allowed an error of 3 %, and every law one of "
-                 "10 % of its effect, so that a misfit which such errors could make is not "
-                 "reported. All effects together, by strength; the laws were exact here:"},
-       strength_table(tally, Arm::effect)});
+  section("What the errors of the laws cost", allowance_blocks(tally));
   arms_section("Power against strength, effect by effect", {}, {Arm::effect});
   arms_section(
       "Laws that are wrong by some per cent",

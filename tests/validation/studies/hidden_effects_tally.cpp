@@ -298,6 +298,31 @@ Confusion confusion_of(const std::vector<Answered>& answers) {
   return c;
 }
 
+/// The answer if the laws are taken for exact: it is given apart unless the cause is named anyway.
+bool exact_names_it(const Answered& a) { return hides(a) && is_named_if_exact(a); }
+bool exact_errs(const Answered& a) { return is_wrong(a) || is_wrong_if_exact(a); }
+
+std::vector<AllowanceRow> allowance_of(const std::vector<Answered>& all) {
+  const std::vector<std::pair<const char*, Test>> truths = {
+      {"exact", seen(Arm::effect)},
+      {"bent by 10 %", seen(Arm::bent)},
+      {"bent by 20 %", seen(Arm::bent_more)},
+      {"another published law", seen(Arm::other_law)},
+      {"another published law, of dry contacts beside adhesion", seen(Arm::other_adhesive)},
+      {"exact, nothing hidden", in(Arm::correct)},
+      {"base bent by 3 %, nothing hidden", in(Arm::base_bent)},
+  };
+  std::vector<AllowanceRow> rows;
+  for (const auto& [truth, among] : truths) {
+    const Answers some = those(all, among);
+    if (some.empty()) continue;
+    const Test named = [](const Answered& a) { return hides(a) && mark_of(a) == Mark::named; };
+    rows.push_back({truth, count(some, named), count(some, is_wrong), count(some, exact_names_it),
+                    count(some, exact_errs)});
+  }
+  return rows;
+}
+
 }  // namespace
 
 const std::vector<Bar>& study_bars() {
@@ -431,6 +456,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   }
   tally.unreached = unreached_of(answers);
   tally.methods = methods_of(answers);
+  tally.allowance = allowance_of(answers);
   return tally;
 }
 

@@ -131,6 +131,16 @@ struct MethodRow {
   RECOIL_FIELDS(method, named, listed, wrong, alarms)
 };
 
+/// What the allowance for errors of the laws costs and brings, where the laws err by `truth`.
+struct AllowanceRow {
+  std::string truth;
+  Count named;        ///< with the allowance: the effect alone
+  Count wrong;        ///< with it: something that is not there
+  Count exact_named;  ///< if the laws are taken for exact
+  Count exact_wrong;
+  RECOIL_FIELDS(truth, named, wrong, exact_named, exact_wrong)
+};
+
 /// All that the page and the picture of the study show.
 struct StudyTally {
   StudyStamp stamp;
@@ -151,8 +161,9 @@ struct StudyTally {
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
   OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
+  OrAbsent<std::vector<AllowanceRow>> allowance;
   RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, nameable, rivals, powers, confusion,
-                alarms, errors_told_astray, times, loop, complaints, unreached, methods)
+                alarms, errors_told_astray, times, loop, complaints, unreached, methods, allowance)
 
   Count bar(std::string_view id) const;  ///< of no data sets where the study has no such bar
 };
