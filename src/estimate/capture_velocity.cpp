@@ -31,9 +31,11 @@ class CaptureSearch {
     if (extended_) {
       // Mechanisms may capture spheres that rebound in the base model.
       if (!(scale_ > 0.0)) scale_ = 1.0;
-    } else if (!(scale_ > 0.0) || (!traits(model.adhesion).jumps && c.hertz_damping == 0.0 &&
-                                   c.adhesion_damping == 0.0)) {
-      result_.found = true;  // no loss: every sphere rebounds
+    }
+    const bool no_loss =
+        !traits(model.adhesion).jumps && c.hertz_damping == 0.0 && c.adhesion_damping == 0.0;
+    if (without_adhesion(model, query.dataset) || (!extended_ && (!(scale_ > 0.0) || no_loss))) {
+      result_.found = true;  // every sphere rebounds
       done_ = true;
       return;
     }
