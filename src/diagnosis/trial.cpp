@@ -153,15 +153,17 @@ std::vector<double> start_from(const Candidate& from, std::span<const double> fi
   return theta;
 }
 
-/// Does what `candidate` adds vanish in this fit?
+/// Does what `candidate` adds vanish in this fit? What is stated and acts does not.
 bool vanishes(const Candidate& candidate, const Refit& fit) {
+  bool is_free = false;
   for (std::size_t j = 0; j < fit.theta.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
-    if (!slot.free || !candidate.adds(slot)) continue;
+    if (!candidate.adds(slot) || !(slot.free || slot.stated)) continue;
     const double null = std::clamp(slot.parameter->null_value, slot.lower, slot.upper);
     if (fit.moving[j] || fit.theta[j] != null) return false;
+    is_free = is_free || slot.free;
   }
-  return true;
+  return is_free;
 }
 
 /// The refit, under the errors of laws, of a candidate that vanishes with exact laws: that of the
