@@ -56,6 +56,7 @@ struct Options {
 
   hidden::StudySize size;
   std::string only;
+  std::size_t first = 0;  ///< of the shuffled orders; 0: all
   std::string binary;
   bool baseline = false;
   std::string sets;  ///< a folder for the data sets, for other methods
@@ -272,10 +273,12 @@ void study_hidden_effects(const Options& options) {
     if (order.key().find(options.only) == std::string::npos) continue;
     if (options.owns(next++)) orders.push_back(order);
   }
+  const std::size_t planned = orders.size();
+  if (options.first > 0) orders.resize(std::min(planned, options.first));
   const std::vector<hidden::Answered> answers = answers_to(orders, options);
   if (wrote_part(options)) return;
   if (!options.sets.empty()) hidden::write_benchmark(answers, options.sets, options.threads);
-  publish(options, hidden::tally_of(answers, orders.size(), options.size));
+  publish(options, hidden::tally_of(answers, planned, options.size));
 }
 
 // ---- reconstructions ---------------------------------------------------------------------------
@@ -434,6 +437,8 @@ void add_hidden_effects(CLI::App& program, Options& options) {
     command->add_option(part.option, options.size.*part.count, part.words);
   }
   command->add_option("--only", options.only, "only orders whose key contains this");
+  command->add_option("--first", options.first,
+                      "only so many of the shuffled orders: a random sample of the study");
   command->add_flag("--baseline", options.baseline,
                     "also ask stepwise AICc and the correlation with a Gaussian process");
   command->add_option("--sets", options.sets,

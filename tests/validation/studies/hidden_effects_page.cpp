@@ -205,8 +205,12 @@ Sentence missed_words(const StudyTally& tally) {
 }
 
 std::vector<Block> foreword(const StudyTally& tally) {
-  const Sentence made = say("Seed {}; {} data sets, {} of them made.",
-                            static_cast<long long>(tally.seed), tally.tried, tally.made);
+  const auto seed = static_cast<long long>(tally.seed);
+  const Sentence made =
+      tally.tried < tally.planned
+          ? say("Seed {}; a random sample of {} of {} data sets, {} of them made.", seed,
+                tally.tried, tally.planned, tally.made)
+          : say("Seed {}; {} data sets, {} of them made.", seed, tally.tried, tally.made);
   std::vector<Block> blocks = {
       Paragraph{
           say("Data in which an effect is hidden, made by separate physics ({}: the contact in "
