@@ -319,10 +319,11 @@ std::optional<ImpactSystem> readable_system(const Json& system) {
 
 Dimension dimension_of(Quantity quantity) {
   using enum Dimension;
-  static constexpr std::array<Dimension, count_of<Quantity>> dimensions = {
+  static constexpr std::array dimensions = {
       text,        length, velocity, ratio,    velocity, ratio, velocity, length,   length,
       count,       count,  text,     velocity, text,     angle, ratio,    pressure, ratio,
-      temperature, length, length,   count,    length,   count, count,    length};
+      temperature, length, length,   count,    length,   count, count,    length,   count};
+  static_assert(dimensions.size() == count_of<Quantity>);
   return dimensions[static_cast<std::size_t>(quantity)];
 }
 

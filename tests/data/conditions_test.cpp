@@ -49,6 +49,35 @@ TEST(Conditions, TellPointsOfOneSeriesApart) {
   EXPECT_DOUBLE_EQ(conditions_of(dataset, 2).of(Condition::relative_humidity).value(), 0.4);
 }
 
+TEST(Conditions, EachMayBeAColumn) {
+  struct Cell {
+    Condition condition;
+    const char* unit;
+    const char* value;
+  };
+  const std::vector<Cell> cells = {{Condition::ambient_pressure, "Pa", "1e5"},
+                                   {Condition::relative_humidity, "1", "0.5"},
+                                   {Condition::temperature, "K", "293"},
+                                   {Condition::target_thickness, "m", "0.01"},
+                                   {Condition::probe_height, "m", "0.001"},
+                                   {Condition::neutralised, "1", "1"},
+                                   {Condition::surface_rms_roughness, "m", "1e-9"},
+                                   {Condition::velocities_calibrated, "1", "1"},
+                                   {Condition::sizes_calibrated, "1", "1"},
+                                   {Condition::film_thickness, "m", "1e-9"},
+                                   {Condition::sizes_equal, "1", "1"}};
+  ASSERT_EQ(cells.size(), values_of<Condition>().size());
+  for (const auto& [condition, unit, value] : cells) {
+    const std::string name(name_of(condition));
+    const DatasetFolder folder(
+        with_fields("{ \"name\": \"" + name + "\", \"type\": \"number\", \"unit\": \"" + unit +
+                    "\" }"),
+        kHeader + name + "\na,4.9,2.5,0.8,,,,," + value + "\n");
+    EXPECT_EQ(conditions_of(load_dataset(folder.path()), 0).of(condition), std::stod(value))
+        << name;
+  }
+}
+
 TEST(Conditions, ASettingIsATextWithoutAUnit) {
   const DatasetFolder folder(with_fields(R"({ "name": "setting", "type": "string" })"),
                              kHeader + "setting\na,4.9,2.5,0.8,,,,,monday\na,4.9,2.5,0.7,,,,,\n");
