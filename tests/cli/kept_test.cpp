@@ -58,7 +58,7 @@ const LongCommand diagnosis = {{"diagnose", "fit.toml", "--seed", "3", "--thread
                                "unfinished-diagnosis.json.jsonl",
                                {"diagnosis.json", "diagnosis.html", "extended.toml"}};
 const LongCommand coverage = {
-    {"coverage", "fit.toml", "--datasets", "20", "--replicates", "19", "--threads", "1"},
+    {"coverage", "fit.toml", "--datasets", "60", "--replicates", "39", "--threads", "1"},
     "coverage.md",
     "unfinished-coverage.md.jsonl",
     {"coverage.md"}};
