@@ -51,7 +51,9 @@ std::string_view trimmed(std::string_view text) {
     if (after) text.remove_suffix(blank.size());
     return before || after;
   };
-  while (std::ranges::any_of(blanks, drop)) {
+  const auto letter = [](char c) { return c > ' ' && c < '\x7f'; };  // no byte of a blank
+  while (!text.empty() && !(letter(text.front()) && letter(text.back())) &&
+         std::ranges::any_of(blanks, drop)) {
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include "core/quoting.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace recoil {
@@ -51,6 +52,8 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
 }
 
 std::string printable(std::string_view text, bool lines) {
+  const auto plain = [](char c) { return c >= ' ' && c < '\x7f'; };
+  if (std::all_of(text.begin(), text.end(), plain)) return std::string(text);
   std::string out;
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {

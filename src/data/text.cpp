@@ -36,14 +36,14 @@ Location locate(std::string_view text, std::size_t offset, const std::string& fi
 
 void require_text(std::string_view text, const std::string& file) {
   for (std::size_t i = 0; i < text.size();) {
-    if (text[i] == '\0') {
+    const unsigned byte = byte_at(text, i);
+    if (byte == 0) {
       throw InputError(locate(text, i, file), "this is not a text file",
                        fmt::format("byte {} is NUL", i + 1), "save it as UTF-8 text");
     }
-    const std::size_t length = utf8_length(text, i);
+    const std::size_t length = byte < 0x80 ? 1 : utf8_length(text, i);
     if (length == 0) {
-      throw InputError(locate(text, i, file),
-                       fmt::format("byte 0x{:02X} is not UTF-8", byte_at(text, i)), "",
+      throw InputError(locate(text, i, file), fmt::format("byte 0x{:02X} is not UTF-8", byte), "",
                        "save the file as UTF-8");
     }
     i += length;

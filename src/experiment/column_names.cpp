@@ -76,6 +76,7 @@ std::string unit_in_brackets(std::string_view header) {
 std::vector<std::size_t> columns_of(const std::string& quantity, Dimension dimension,
                                     const std::vector<std::string>& headers,
                                     const std::vector<std::string>& units) {
+  const std::string plain = plain_word(quantity);
   std::vector<std::size_t> own;
   std::vector<std::size_t> with_unit;
   std::vector<std::size_t> other;
@@ -84,11 +85,10 @@ std::vector<std::size_t> columns_of(const std::string& quantity, Dimension dimen
     const std::string word = plain_word(std::string_view(header).substr(0, begin_of_unit(header)));
     if (header == quantity) {
       own.push_back(i);
-    } else if (word == plain_word(quantity) ||
-               header.substr(0, header.find_first_of(" [(")) == quantity) {
+    } else if (word == plain || header.substr(0, header.find_first_of(" [(")) == quantity) {
       with_unit.push_back(i);
     } else if (std::ranges::any_of(other_names, [&](const OtherName& known) {
-                 return known.quantity == quantity && known.name == word;
+                 return known.name == word && known.quantity == quantity;
                })) {
       std::string unit = unit_in_brackets(header);
       if (unit.empty() && i < units.size()) unit = units[i];

@@ -129,7 +129,7 @@ std::optional<char> take_separator(std::string& text, Lines& lines) {
 CsvRow cells_of(std::string_view line, char delimiter) {
   CsvRow cells;
   try {
-    read_csv(line, "", delimiter, [&](const CsvRow& row) { cells = row; });
+    read_csv(line, "", delimiter, [&](CsvRow& row) { cells = std::move(row); });
   } catch (const InputError&) {
     cells.clear();
   }
@@ -154,6 +154,8 @@ char likely_delimiter(const Lines& lines, const NumberFormat& format) {
   constexpr std::size_t enough = 200;  // lines
   for (const char delimiter : {'\t', ';', ',', '|', ' '}) {
     if (format.decimal == std::string(1, delimiter)) continue;
+    const auto divided = [&](std::string_view line) { return line.find(delimiter) != line.npos; };
+    if (delimiter != ' ' && std::ranges::none_of(lines, divided)) continue;
     std::size_t width = 0;
     std::size_t above = 0;
     bool even = true;

@@ -323,6 +323,7 @@ void each_line(std::string_view text, std::size_t from, int first, const OnLine&
 Header find_header(const std::string& text, const std::string& file, const PassageFormat& format,
                    std::size_t& rest) {
   constexpr int most_above = 100;  // lines
+  const NumberFormat commas = {","};
   struct Candidate {
     Header header;
     std::size_t rest = 0;
@@ -338,8 +339,8 @@ Header find_header(const std::string& text, const std::string& file, const Passa
       split(content, delimiter, cells);
       while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
       Candidate here{{line, delimiter, {cells.begin(), cells.end()}}, next};
-      const bool numbers = std::ranges::any_of(cells, [](std::string_view cell) {
-        return parse_number(cell) || parse_number(cell, {","});
+      const bool numbers = std::ranges::any_of(cells, [&](std::string_view cell) {
+        return parse_number(cell) || parse_number(cell, commas);
       });
       const auto above = before.find(delimiter);
       if (numbers && !plain && cells.size() > 1 && above != before.end() &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -18,9 +19,8 @@ inline void require(bool condition, const char* what) {
 /// A complaint is one line and short enough to be read.
 inline void require_one_line(const std::exception& error) {
   const std::string text = error.what();
-  for (const char c : text) {
-    require(static_cast<unsigned char>(c) >= 0x20 && c != '\x7f', "one line of printable text");
-  }
+  const auto control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  require(std::none_of(text.begin(), text.end(), control), "one line of printable text");
   require(text.size() < 1000, "a short message");
 }
 

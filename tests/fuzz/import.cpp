@@ -70,8 +70,9 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = input.find('\n');
-  const support::TemporaryFolder place;
+  static const support::TemporaryFolder place;
   const recoil::ImportRequest request = request_for(input.substr(0, line), place.path());
+  if (fs::exists(request.into)) fs::remove_all(request.into);
   support::write_text(request.file, line == std::string::npos ? "" : input.substr(line + 1));
   try {
     const recoil::ImportResult result = recoil::import_points(request);
