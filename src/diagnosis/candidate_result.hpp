@@ -49,7 +49,7 @@ enum class SetAside {
   one_suffices,        ///< one mechanism of a pair would suffice
   second_adds_little,  ///< one mechanism of a pair contributes little, and structure is left
   at_limit,            ///< a parameter rests on a bound of its allowed range
-  far_behind  ///< a pair that was too far behind the best at the screening and was not followed
+  far_behind           ///< a pair that was behind others at the screening and was not followed
 };
 constexpr auto names_of_values(SetAside) {
   return name_list("description", "gains_too_little", "chance", "not_possible", "batch_is_size",

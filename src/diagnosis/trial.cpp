@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -29,9 +30,11 @@ constexpr double worth_releasing = 2.0;  // least gain of the criterion by relea
 // Least effect, in standard deviations of the most affected point.
 constexpr double least_effect = 0.01;
 // A pair is followed if its criterion at the screening is within `followed_within` of the best,
-// or within the fraction `followed_part` of the gain of the best.
+// or within the fraction `followed_part` of the gain of the best; of these the first
+// `most_followed`.
 constexpr double followed_within = 30.0;
 constexpr double followed_part = 0.2;
+constexpr std::size_t most_followed = 40;
 // Least part of the misfit that each of a pair must explain if structure is left.
 constexpr double carried_part = 0.1;
 
@@ -379,14 +382,24 @@ void kept_screening(const SearchBase& base, std::size_t k, Screening& screening)
       base.options.kept.get(), number_of(base.options, KeptPiece::screening, k), make, write, read);
 }
 
-/// The criterion up to which a pair is followed. A pair that is further behind at the screening
-/// does not become one of the best: of 460 pairs for wall1990-molybdenum and wall1990-silicon, the
-/// later steps improved none by more than a third of its change of the criterion, and none of the
-/// best ten by more than a twentieth.
-double worth_following(const std::vector<Screening>& screenings) {
-  double best = 0.0;
-  for (const Screening& screening : screenings) best = std::min(best, screening.delta_aicc);
-  return best + std::max(followed_within, followed_part * -best);
+/// Which pairs are followed. A pair that is further behind at the screening does not become one of
+/// the best: of 460 pairs for wall1990-molybdenum and wall1990-silicon, the later steps improved
+/// none by more than a third of its change of the criterion, and none of the best ten by more than
+/// a twentieth.
+std::vector<bool> worth_following(const std::vector<Screening>& screenings) {
+  std::vector<std::size_t> order(screenings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // Of pairs that gain no more than one of the two alone, the lower deviance is first.
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) {
+    return std::pair(screenings[k].delta_aicc, screenings[k].refit.chi2);
+  });
+  const double best = order.empty() ? 0.0 : std::min(0.0, screenings[order.front()].delta_aicc);
+  const double worth = best + std::max(followed_within, followed_part * -best);
+  std::vector<bool> followed(screenings.size(), false);
+  for (std::size_t rank = 0; rank < std::min(order.size(), most_followed); ++rank) {
+    followed[order[rank]] = screenings[order[rank]].delta_aicc <= worth;
+  }
+  return followed;
 }
 
 /// The final result of a pair.
@@ -504,12 +517,12 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     kept_screening(base, k, screenings[k]);
     progress.advance();
   });
-  const double worth = worth_following(screenings);
+  const std::vector<bool> followed = worth_following(screenings);
   std::vector<CandidateResult> results(screenings.size());
   parallel_over(screenings.size(), base.options.threads, [&](std::size_t k) {
-    const bool follow = screenings[k].delta_aicc <= worth;
-    results[k] = kept_candidate(base, KeptPiece::pair, k, names_of(screenings[k]),
-                                [&] { return try_both(base, std::move(screenings[k]), follow); });
+    results[k] = kept_candidate(base, KeptPiece::pair, k, names_of(screenings[k]), [&] {
+      return try_both(base, std::move(screenings[k]), followed[k]);
+    });
     progress.advance();
   });
   sort_by_criterion(results);

@@ -37,7 +37,7 @@ const SetAsideReason& reason_of(SetAside why) {
        "structure remains in the residuals (p = {:.2g}), and one of the two explains no more of "
        "the misfit than an error in the law of the other could"},
       {at_limit, "parameter at its limit", "a parameter lies at the limit of what is possible"},
-      {far_behind, "far behind", "it fits far worse than the best two"}};
+      {far_behind, "far behind", "at a first look, other pairs fit better"}};
   return phrase_for(reasons, why);
 }
 

@@ -1,6 +1,7 @@
 // A diagnosis that takes what it has from an earlier run says what one says that has nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -111,6 +112,17 @@ TEST(KeptPieces, NumbersComeBackWhateverTheyAre) {
   EXPECT_EQ(back, values);
   EXPECT_TRUE(std::signbit(back.front()));
   EXPECT_TRUE(std::isnan(row_numbers(Json::parse(row_json({std::nan("")}).dump())).front()));
+}
+
+TEST(KeptPieces, AtMostFortyPairsAreFollowedToTheEnd) {
+  const Diagnosis found = diagnose(synthetic::spec(), {hard_to_explain()}, few(nullptr));
+  const auto followed = std::ranges::count_if(found.pairs, [](const CandidateResult& pair) {
+    return pair.set_aside != SetAside::far_behind;
+  });
+  EXPECT_GT(found.pairs.size(), 100U);
+  EXPECT_GT(followed, 0);
+  EXPECT_LE(followed, 40);
+  EXPECT_NE(found.pairs.front().set_aside, SetAside::far_behind);
 }
 
 }  // namespace
