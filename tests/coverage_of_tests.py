@@ -4,7 +4,8 @@
 PROFILES is the folder of what they counted (*.profraw). Prints a table of lines and branches of src
 by folder, then, behind an empty line, the lines and conditions that nothing reached. A branch is one
 outcome of a condition of the source, true or false; the instances of a template share theirs, and
-what the compiler decides (`if constexpr`) is no condition.
+what the compiler decides (`if constexpr`) is no condition. Lists of names (`names_of_values`), which
+the compiler reads, are no lines.
 """
 
 import collections
@@ -21,6 +22,17 @@ def inside(path):
     """The path from the project's folder of a file below src; empty for others."""
     path = Path(path)
     return path.relative_to(SOURCE).as_posix() if path.is_relative_to(SOURCE / "src") else ""
+
+
+def read_by_compiler(source):
+    """The numbers of the lines of the lists of names in `source`."""
+    numbers, within = set(), False
+    for number, line in enumerate(source, 1):
+        within = within or line.startswith("constexpr auto names_of_values(")
+        if within:
+            numbers.add(number)
+        within = within and line != "}"
+    return numbers
 
 
 def counted(profiles, programs):
@@ -46,6 +58,8 @@ def counted(profiles, programs):
     for file in json.loads(tree.stdout)["data"][0]["files"]:
         name = inside(file["filename"])
         source = (SOURCE / name).read_text().splitlines() if name else []
+        for number in read_by_compiler(source):
+            lines[name].pop(number, None)
         for line, column, _, _, taken, passed, *_ in file["branches"] if name else []:
             if "if constexpr" in source[line - 1]:
                 continue
