@@ -136,5 +136,18 @@ TEST(LeftOut, OfAPointThatSaysNothingChangesNothing) {
   EXPECT_EQ(point.pareto_k, -INFINITY);
 }
 
+TEST(LeftOut, OfAPointThatThreeDrawsMakeImprobableHasNoShape) {
+  std::vector<double> ln(1000, -2.0);
+  for (const std::size_t i : {10U, 500U, 900U})
+    ln[i] = -2.0 - std::log(1e3 + static_cast<double>(i));
+  EXPECT_EQ(leave_out(ln).pareto_k, INFINITY);
+}
+
+TEST(LeftOut, OfChainsThatStandStillCountsNoHalfTwice) {
+  std::vector<double> ln(400, -2.0);
+  for (std::size_t i = 200; i < 400; ++i) ln[i] = -1.0;
+  EXPECT_LE(leave_out_of_chains(ln, 4).r_eff, 8.0 / 400.0);
+}
+
 }  // namespace
 }  // namespace recoil

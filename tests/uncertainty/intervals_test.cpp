@@ -60,6 +60,32 @@ TEST(Bca, AtABoundThereIsNone) {
   EXPECT_EQ(interval.missing, NoInterval::one_sided_replicates);
 }
 
+TEST(Bca, WithoutWhatItNeedsThereIsNone) {
+  const std::vector<double> one_left_out = {1, 2, 3};
+  const auto missing = [](const Interval& interval) {
+    EXPECT_FALSE(interval.available());
+    EXPECT_FALSE(interval.contains(2.0));
+    return interval.missing;
+  };
+  EXPECT_EQ(missing(bca_interval({}, 2.0, one_left_out, 0.95)), NoInterval::few_replicates);
+  EXPECT_EQ(missing(bca_interval(one_to(20), 2.0, one_left_out, 0.95)), NoInterval::few_replicates);
+  EXPECT_EQ(missing(bca_interval(one_to(99), 2.0, std::vector<double>{1, 2}, 0.95)),
+            NoInterval::few_delete_one_refits);
+  EXPECT_EQ(missing(bca_interval(one_to(99), 100.0, one_left_out, 0.95)),
+            NoInterval::one_sided_replicates);
+}
+
+TEST(AnInterval, WithOneEndContainsNothing) {
+  Interval interval;
+  interval.lower = 1.0;
+  EXPECT_FALSE(interval.contains(2.0));
+  interval.upper = 3.0;
+  EXPECT_TRUE(interval.contains(1.0));
+  EXPECT_TRUE(interval.contains(3.0));
+  EXPECT_FALSE(interval.contains(0.9));
+  EXPECT_FALSE(interval.contains(3.1));
+}
+
 TEST(Studentized, ByHand) {
   // 99 replicates at estimate + (k - 50) / 50 with equal errors 0.5: pivots (k - 50) / 25, their 5
   // % and 95 % quantiles are k = 5 and 95, so +-1.8; with s = 2 the interval is 10 -+ 3.6.
