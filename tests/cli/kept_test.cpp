@@ -108,7 +108,8 @@ TEST(Kept, ADiagnosisEndsSoonAfterTheSignal) {
   spoil(place);
   Started run(with(diagnosis.words, {"--out", "out"}), place.path());
   ASSERT_TRUE(run.wait_until([&] { return fs::exists(place / "out/diagnosis.json.lock"); }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // well at work
+  ASSERT_TRUE(run.wait_until_it_catches(SIGINT));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // well at work
   const auto sent = std::chrono::steady_clock::now();
   run.send(SIGINT);
   const Outcome ended = run.end();

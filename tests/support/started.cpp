@@ -6,6 +6,8 @@
 
 #include <csignal>
 #include <ctime>
+#include <fstream>
+#include <string>
 #include <thread>
 
 namespace support {
@@ -59,6 +61,18 @@ bool Started::wait_until_worked(std::chrono::milliseconds time) {
     timespec worked{};
     return clock_gettime(clock, &worked) == 0 &&
            std::chrono::seconds(worked.tv_sec) + std::chrono::nanoseconds(worked.tv_nsec) >= time;
+  });
+}
+
+bool Started::wait_until_it_catches(int signal) {
+  const std::string file = "/proc/" + std::to_string(child_) + "/status";
+  return wait_until([&] {
+    std::ifstream status(file);
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigCgt:")) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0;
+    }
+    return false;
   });
 }
 

@@ -29,6 +29,8 @@ class Started {
   bool wait_until(const std::function<bool()>& happened);
   /// Waits until it has worked for so long: processor time, whatever else the machine does.
   bool wait_until_worked(std::chrono::milliseconds time);
+  /// Waits until it handles `signal` itself.
+  bool wait_until_it_catches(int signal);
   /// Waits for its end. The status of one that a signal ended is 128 and the signal.
   Outcome end();
   /// The signal that ended it; 0 if it ended by itself. @pre it has ended
