@@ -185,6 +185,65 @@ TEST(Posterior, LikelihoodOfThePointsIsNormalInRestitution) {
   }
 }
 
+TEST(Posterior, ConstantsThatTheFitHoldsAreDrawnFromWhatIsStated) {
+  // The density is held: its draws are the stated lognormal. Adhesion slows down a lighter sphere
+  // of the same stiffness more, which C_A makes up for.
+  Dataset data = synthetic::noisy_case().datasets.front();
+  data.system.errors = {{Body::particle, Constant::density, 135.0}};
+  FitSpec spec = synthetic::spec();
+  const auto drawn = [&](Materials materials) {
+    spec.uncertainty.materials = materials;
+    const FitResult fitted = fit(make_model(spec, {data}), gather({data}));
+    return sample_posterior(fit_alternatives(fitted), {}, {});
+  };
+  const PosteriorResult found = drawn(Materials::propagated);
+  const PosteriorResult without = drawn(Materials::exact);
+  ASSERT_TRUE(found.available());
+  ASSERT_TRUE(without.available());
+  ASSERT_EQ(found.draws.front().size(), 4U) << "C_H, C_A, f0 and the density";
+  const auto n = static_cast<double>(found.draws.size());
+  double mean = 0.0, square = 0.0;
+  for (const auto& draw : found.draws) mean += std::log(draw[3] / 1350.0) / n;
+  for (const auto& draw : found.draws) square += std::pow(std::log(draw[3] / 1350.0) - mean, 2) / n;
+  const double sd = std::sqrt(std::log1p(0.01));
+  EXPECT_NEAR(mean / sd, 0.0, 4.0 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(square) / sd, 1.0, 4.0 / std::sqrt(2.0 * n));
+  EXPECT_GT(found.parameters[1].sd, 1.1 * without.parameters[1].sd);
+}
+
+TEST(Posterior, CaptureVelocitiesAreThoseOfTheDraws) {
+  const synthetic::Case c = synthetic::noisy_case();
+  CaptureEstimate at;
+  at.diameter = 4.9e-6;
+  at.value = 1.0;
+  const PosteriorResult found = sample_posterior(fit_alternatives(c.fitted), {at}, {});
+  ASSERT_TRUE(found.available());
+  for (const std::size_t k : {0U, 333U, 777U}) {
+    synthetic::Design design;
+    design.C_H = found.draws.at(k)[0];
+    design.C_A = found.draws[k][1];
+    const Truth truth = synthetic::truth_of(design);
+    const double V = found.capture_draws.at(k).at(0);
+    EXPECT_EQ(true_restitution(truth, at.diameter, 0.999 * V), 0.0) << V;
+    EXPECT_GT(true_restitution(truth, at.diameter, 1.001 * V), 0.0) << V;
+  }
+  EXPECT_TRUE(found.capture.at(0).interval.available());
+}
+
+TEST(Posterior, HasNoAnswerWithoutAFreeParameterOrANoise) {
+  const synthetic::Case c = synthetic::noisy_case();
+  FitResult held = c.fitted;
+  for (ParameterSlot& slot : held.model.slots) slot.free = false;
+  EXPECT_TRUE(sample_posterior(fit_alternatives(held), {}, {}).draws.empty());
+  Dataset few = c.datasets.front();
+  few.points.resize(2);
+  for (ImpactPoint& point : few.points) point.restitution_sd.reset();
+  const FitResult exact = fit(make_model(synthetic::spec(), {few}), gather({few}));
+  const PosteriorResult found = sample_posterior(fit_alternatives(exact), {}, {});
+  EXPECT_FALSE(found.available());
+  EXPECT_EQ(found.missing, NoPosterior::few_points);
+}
+
 TEST(Posterior, RefusesWhatHasNotSettled) {
   const synthetic::Case c = synthetic::noisy_case();
   PosteriorOptions options;
