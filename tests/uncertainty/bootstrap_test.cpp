@@ -21,6 +21,32 @@ using synthetic::Case;
 using synthetic::noisy_case;
 using synthetic::small;
 
+TEST(Jackknife, LeavesOutAPointOrAWholeSeries) {
+  const Case made = noisy_case();
+  const auto without = [&](const auto& is_left_out) {
+    Dataset rest = made.datasets.front();
+    std::erase_if(rest.points, is_left_out);
+    return fit(make_model(synthetic::spec(), {rest}), gather({rest})).theta;
+  };
+  const auto expect_near = [&](const std::vector<double>& found, const std::vector<double>& right) {
+    ASSERT_EQ(found.size(), right.size());
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      EXPECT_NEAR(found[j], right[j], 1e-4 * made.fitted.std_error[j] + 1e-15) << j;
+    }
+  };
+  const auto by_series = jackknife(plan_resampling(made.fitted, Scheme::cluster), 1);
+  ASSERT_EQ(by_series.size(), 2U);
+  for (std::size_t s = 0; s < by_series.size(); ++s) {
+    expect_near(by_series[s], without([s](const ImpactPoint& point) { return point.series == s; }));
+  }
+  const auto by_point = jackknife(plan_resampling(made.fitted, Scheme::parametric), 1);
+  ASSERT_EQ(by_point.size(), made.data.points.size());
+  const Observation& last = made.data.points.back();
+  expect_near(by_point.back(), without([&](const ImpactPoint& point) {
+                return point.series == last.series && point.incident_velocity == last.velocity;
+              }));
+}
+
 TEST(Bootstrap, RefitsEndAtTheirMinimum) {
   const Case made = noisy_case();
   const ResamplingPlan plan = plan_resampling(made.fitted, Scheme::parametric);
