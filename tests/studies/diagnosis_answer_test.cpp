@@ -43,6 +43,27 @@ TEST(NearestRival, IsSoughtForOneVisibleEffectOfTheCatalogueInSeveralSizes) {
   }
 }
 
+// Lambda is 9: the normal distribution at 5/6 and, with a parameter more, at 7/6 (tables).
+TEST(NearestRival, IsToldApartAsOftenAsTheNormalDistributionSays) {
+  EXPECT_NEAR((NearestRival{"plate_flexure", 3.0, 0}).nameable(), 0.7977, 1e-4);
+  EXPECT_NEAR((NearestRival{"electrostatic_image", 3.0, 1}).nameable(), 0.8783, 1e-4);
+  EXPECT_EQ((NearestRival{"", 0.0, 0}).nameable(), 0.0);
+  EXPECT_EQ((NearestRival{"", std::numeric_limits<double>::infinity(), 0}).nameable(), 1.0);
+}
+
+// The energy that crushes asperities falls with the size as the field of a charge that grows with
+// another power of it does.
+TEST(NearestRival, OfAsperitiesIsAChargeWithAFreeExponent) {
+  const Case made = make_case({"wall", {"asperity_loss"}, 20.0, 0});
+  ASSERT_TRUE(made.reached);
+  const NearestRival rival = nearest_rival(made);
+  EXPECT_EQ(rival.id, "electrostatic_image");
+  EXPECT_EQ(rival.freed, 1);
+  const ScratchFolder scratch;
+  const std::filesystem::path fit = write_case(without_noise(made), scratch.path());
+  EXPECT_GT(misfit_left(fit, rival.id), 2.0 * rival.misfit);
+}
+
 TEST(KeptAnswer, IsFoundByItsOrderOnly) {
   const ScratchFolder scratch;
   Answered made;
@@ -50,7 +71,7 @@ TEST(KeptAnswer, IsFoundByItsOrderOnly) {
   made.verdict = "not_separable";
   made.rivals = {"gas_film", "probe_plane"};
   made.taken = {{4.9e-6, 10.0, 40, {"ambient_pressure", 1.0}}};
-  made.nearest_rival = {"crack_rate", std::numeric_limits<double>::infinity()};
+  made.nearest_rival = {"crack_rate", std::numeric_limits<double>::infinity(), 1};
   const std::string text = recoil::json_text(recoil::as_json(made, recoil::NonFinite::word));
   recoil::write_whole_file(scratch.path() / (neutral_name(made.order) + ".json"), text,
                            recoil::Replacing::data);

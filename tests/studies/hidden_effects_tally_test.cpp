@@ -30,14 +30,14 @@ Answered answer(const std::string& design, const std::vector<std::string>& effec
 std::vector<Answered> answers() {
   std::vector<Answered> all;
   all.push_back(answer("wall", {"plastic_yield"}, 20.0, "cause_named", {"plastic_yield"}));
-  all.back().nearest_rival = {"elastic_waves", 8.0};
+  all.back().nearest_rival = {"elastic_waves", 8.0, 0};
   all.push_back(answer("wall", {"plastic_yield"}, 5.0, "adequate", {}));
   all.push_back(answer("li", {"jkr_hysteresis"}, 20.0, "not_separable", {},
                        {"jkr_hysteresis", "adhesion_hysteresis"}));
   all.back().shared_cause = "adhesion hysteresis";
-  all.back().nearest_rival = {"adhesion_hysteresis", 1.5};
+  all.back().nearest_rival = {"adhesion_hysteresis", 1.5, 0};
   all.push_back(answer("li", {"gas_film"}, 10.0, "cause_named", {"probe_plane"}));
-  all.back().nearest_rival = {"plate_flexure", 5.0};
+  all.back().nearest_rival = {"plate_flexure", 5.0, 0};
   all.push_back(answer("wall", {}, 0.0, "adequate", {}));
   all.push_back(answer("wall", {}, 0.0, "unexplained", {}));
   all.back().p_value = 0.01;

@@ -57,13 +57,18 @@ std::vector<double> discrepancy_mean(const std::vector<double>& log_velocity,
   return best;
 }
 
-FitResult fit_with(const fs::path& written, const std::vector<std::string>& mechanisms) {
+FitResult fit_with(const fs::path& written, const std::vector<std::string>& mechanisms,
+                   const std::vector<std::string>& freed) {
   std::string ids;
   for (const std::string& id : mechanisms) ids += (ids.empty() ? "\"" : ", \"") + id + "\"";
   std::string text = read_text_file(written);
   const std::string model = "[model]\n";
   if (text.find(model) == std::string::npos) text.insert(text.find("[parameters]"), model + "\n");
   text.insert(text.find(model) + model.size(), "mechanisms = [" + ids + "]\n");
+  const std::string parameters = "[parameters]\n";
+  for (const std::string& id : freed) {
+    text.insert(text.find(parameters) + parameters.size(), id + " = { free = true }\n");
+  }
   const fs::path changed = fs::path(written).replace_extension(".with.toml");
   write_whole_file(changed, text, Replacing::data);
   try {

@@ -22,7 +22,8 @@ struct BaselineAnswers {
 };
 
 /// The written case `fit`, fitted with `mechanisms`; not usable where the data cannot have them.
-FitResult fit_with(const std::filesystem::path& fit, const std::vector<std::string>& mechanisms);
+FitResult fit_with(const std::filesystem::path& fit, const std::vector<std::string>& mechanisms,
+                   const std::vector<std::string>& freed = {});
 
 /// Fits the base model, every mechanism, and every second one beside the best, all under the
 /// weights of the base model and from the fit with one mechanism less.

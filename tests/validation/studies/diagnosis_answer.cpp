@@ -6,9 +6,11 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "mechanism/mechanism.hpp"
 #include "validation/studies/child.hpp"
 #include "validation/studies/hidden_effects_plan.hpp"
 #include "validation/synthetic/case.hpp"
@@ -136,9 +138,10 @@ Case without_noise(Case made) {
   return made;
 }
 
-double misfit_left(const fs::path& fit, const std::string& mechanism) {
+double misfit_left(const fs::path& fit, const std::string& mechanism,
+                   const std::vector<std::string>& freed) {
   const FitResult fitted =
-      fit_with(fit, mechanism.empty() ? std::vector<std::string>{} : std::vector{mechanism});
+      fit_with(fit, mechanism.empty() ? std::vector<std::string>{} : std::vector{mechanism}, freed);
   return fitted.usable ? std::sqrt(fitted.chi2) : std::numeric_limits<double>::infinity();
 }
 
@@ -152,22 +155,47 @@ bool worth_trying(std::string_view other, std::string_view truth) {
   return !spreads(other) || spreads(truth) || truth == "rebound_truncation" || truth == "outliers";
 }
 
+/// The parameters that the catalogue fixes and that a search for causes may free.
+std::vector<std::string> released_by_a_search(const std::string& id) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : find_mechanism(id)->info.parameters) {
+    if (!parameter.free && parameter.searched) names.emplace_back(parameter.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 NearestRival nearest_rival(const Case& made) {
   const ScratchFolder scratch;
   const fs::path fit = write_case(without_noise(made), scratch.path());
-  NearestRival closest{"", std::numeric_limits<double>::infinity()};
+  NearestRival closest{"", std::numeric_limits<double>::infinity(), 0};
   for (const HiddenEffect& effect : hidden_effects()) {
     const bool in_catalogue =
         effect.kind == EffectKind::physics || effect.kind == EffectKind::measurement;
     if (!in_catalogue || !worth_trying(effect.id, made.order.effects.front())) {
       continue;
     }
-    const double left = misfit_left(fit, std::string(effect.id));
-    if (left < closest.misfit) closest = {std::string(effect.id), left};
+    const std::string id(effect.id);
+    std::vector<std::vector<std::string>> ways = {{}};
+    if (auto freed = released_by_a_search(id); !freed.empty()) ways.push_back(std::move(freed));
+    for (const std::vector<std::string>& freed : ways) {
+      const NearestRival rival = {id, misfit_left(fit, id, freed), static_cast<int>(freed.size())};
+      const auto hard = [](const NearestRival& one) {
+        return std::pair(one.nameable(), one.misfit);
+      };
+      if (hard(rival) < hard(closest)) closest = rival;
+    }
   }
   return closest;
+}
+
+double NearestRival::nameable() const {
+  constexpr double margin = 4.0;
+  const double lambda = misfit * misfit;
+  if (!(lambda > 0.0)) return 0.0;
+  if (!std::isfinite(lambda)) return 1.0;
+  return 0.5 * std::erfc((margin - lambda - 2.0 * freed) / (2.0 * std::sqrt(2.0 * lambda)));
 }
 
 std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {

@@ -16,7 +16,13 @@ namespace recoil::hidden {
 struct NearestRival {
   std::string id;
   double misfit = 0.0;  ///< that it leaves of data without noise, as a signal-to-noise
-  RECOIL_FIELDS(id, misfit)
+  int freed = 0;        ///< its parameters that the catalogue fixes and that were fitted
+  RECOIL_FIELDS(id, misfit, freed)
+
+  /// The probability that its criterion is worse by 4 than that of the true cause: nobody who asks
+  /// for odds of e^2 names the cause more often. With lambda the square of the misfit, the
+  /// difference is normal with the mean lambda + 2 freed and the variance 4 lambda.
+  double nameable() const;
 };
 
 /// What the diagnosis of one case answered, beside what is true.
@@ -72,10 +78,11 @@ constexpr auto names_of_values(Mark) {
 }
 Mark mark_of(const Answered& answered);
 
-/// Fits every other mechanism (base parameters free) to the case without noise. What leaves less
-/// than 3 or so, no data of this size can exclude: an honest answer lists it. Whether its
-/// parameters would be plausible is not asked. The spreads of size and adhesion, slow to fit, are
-/// tried only on what else happens near capture.
+/// Fits every other mechanism (base parameters free) to the case without noise, also with the
+/// parameters free that a diagnosis may release. What leaves less than 3 or so, no data of this
+/// size can exclude: an honest answer lists it. Whether its parameters would be plausible is not
+/// asked. The spreads of size and adhesion, slow to fit, are tried only on what else happens near
+/// capture.
 NearestRival nearest_rival(const Case& made);
 
 /// The case with its noise taken away.
@@ -83,7 +90,8 @@ Case without_noise(Case made);
 
 /// Misfit that a fit leaves of a written case with `mechanism` (or none, when empty), as a
 /// signal-to-noise; infinite when there is no fit.
-double misfit_left(const std::filesystem::path& fit, const std::string& mechanism);
+double misfit_left(const std::filesystem::path& fit, const std::string& mechanism,
+                   const std::vector<std::string>& freed = {});
 
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);

@@ -27,7 +27,8 @@ std::string truth_row(const Answered& a) {
   const bool known = is_counted(a) && !a.nearest_rival.id.empty();
   return fmt::format("{},{},{},{},{:g},{},{}\n", neutral_name(a.order), ids_text(a.order.effects),
                      name_of(arm_of(a.order)), a.order.design, a.order.signal_to_noise,
-                     is_counted(a) ? 1 : 0, known ? fmt::format("{:.4f}", nameable(a)) : "");
+                     is_counted(a) ? 1 : 0,
+                     known ? fmt::format("{:.4f}", a.nearest_rival.nameable()) : "");
 }
 
 /// What one method answers: the causes that it names, and those that it lists.

@@ -61,7 +61,7 @@ bool is_told(const Answered& a) {
 bool can_be_named(const Answered& a) { return a.nearest_rival.misfit >= separable; }
 
 /// Would an ideal judge name it in half of the data sets or more?
-bool is_nameable(const Answered& a) { return nameable(a) >= 0.5; }
+bool is_nameable(const Answered& a) { return a.nearest_rival.nameable() >= 0.5; }
 
 /// What is hidden is named, if need be on the condition that the laws are exact.
 bool is_named_if_exact(const Answered& a) {
@@ -410,13 +410,6 @@ const std::vector<Bar>& study_bars() {
   return bars;
 }
 
-double nameable(const Answered& answered) {
-  const double lambda = answered.nearest_rival.misfit * answered.nearest_rival.misfit;
-  if (!(lambda > 0.0)) return 0.0;
-  if (!std::isfinite(lambda)) return 1.0;
-  return 0.5 * std::erfc((4.0 - lambda) / (2.0 * std::sqrt(2.0 * lambda)));
-}
-
 int PowerRow::marked(Mark mark) const {
   const auto found = marks.find(std::string(name_of(mark)));
   return found == marks.end() ? 0 : found->second;
@@ -439,7 +432,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   for (const Bar& bar : study_bars()) tally.bars.emplace_back(bar.id, count(bar, answers));
   tally.not_named = not_named_of(answers);
   double ideal = 0.0;
-  for (const Answered* a : those(answers, seen(Arm::effect))) ideal += nameable(*a);
+  for (const Answered* a : those(answers, seen(Arm::effect))) ideal += a->nearest_rival.nameable();
   tally.nameable = ideal;
   tally.rivals = rivals_of(answers);
   tally.powers = powers_of(answers);

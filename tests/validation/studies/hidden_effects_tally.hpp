@@ -48,12 +48,6 @@ const std::vector<Bar>& study_bars();
 /// No other single cause of the catalogue comes closer than this, so that a name can be given.
 inline constexpr double separable = 4.0;
 
-/// The probability that the deviance of the nearest rival exceeds that of the cause by 4, for as
-/// many parameters: nobody who asks for odds of e^2 names the cause more often. With lambda the
-/// square of the misfit that the rival leaves, the difference is normal with the mean lambda and
-/// the variance 4 lambda.
-double nameable(const Answered& answered);
-
 /// Data sets of one kind and strength, and what was answered.
 struct PowerRow {
   Arm arm = Arm::effect;
