@@ -21,47 +21,31 @@ fs::path stand_in(const ScratchFolder& scratch) {
   return program;
 }
 
-TEST(NearestRival, IsSoughtForOneVisibleEffectOfTheCatalogueInSeveralSizes) {
+TEST(IdealJudge, IsAskedForRivalsOfOneVisibleEffectOfTheCatalogueInSeveralSizes) {
   const ScratchFolder scratch;
   const fs::path program = stand_in(scratch);
   const Answered visible_one = ask({"wall", {"gas_film"}, 10.0, 0}, program, {});
   ASSERT_TRUE(visible_one.reached);
   EXPECT_EQ(visible_one.status, 3);
-  EXPECT_NE(visible_one.nearest_rival.id, "");
-  EXPECT_NE(visible_one.nearest_rival.id, "gas_film");
+  ASSERT_TRUE(visible_one.ideal);
+  EXPECT_NE(visible_one.ideal->rival.id, "");
+  EXPECT_NE(visible_one.ideal->rival.id, "gas_film");
+  EXPECT_EQ(visible_one.ideal->other.id, visible_one.ideal->rival.id);
   // The base model leaves 10, and a rival has its parameters and more.
-  EXPECT_GT(visible_one.nearest_rival.misfit, 0.0);
-  EXPECT_LT(visible_one.nearest_rival.misfit, 10.0);
+  EXPECT_GT(visible_one.ideal->rival.misfit, 0.0);
+  EXPECT_LT(visible_one.ideal->rival.misfit, 10.0);
   for (const CaseOrder& other :
        std::vector<CaseOrder>{{"wall", {"gas_film"}, 5.0, 0},
                               {"wall", {"dip"}, 20.0, 0},
-                              {"wall", {"gas_film", "plastic_yield"}, 20.0},
-                              {"wall-one", {"jkr_hysteresis"}, 10.0, 0}}) {
+                              {"wall", {"gas_film", "plastic_yield"}, 20.0}}) {
     const Answered answered = ask(other, program, {});
     EXPECT_TRUE(answered.reached) << other.key();
-    EXPECT_EQ(answered.nearest_rival.id, "") << other.key();
+    EXPECT_FALSE(answered.ideal) << other.key();
   }
-}
-
-// Lambda is 9: the normal distribution at 5/6 and, with a parameter more, at 7/6 (tables).
-TEST(NearestRival, IsToldApartAsOftenAsTheNormalDistributionSays) {
-  EXPECT_NEAR((NearestRival{"plate_flexure", 3.0, 0}).nameable(), 0.7977, 1e-4);
-  EXPECT_NEAR((NearestRival{"electrostatic_image", 3.0, 1}).nameable(), 0.8783, 1e-4);
-  EXPECT_EQ((NearestRival{"", 0.0, 0}).nameable(), 0.0);
-  EXPECT_EQ((NearestRival{"", std::numeric_limits<double>::infinity(), 0}).nameable(), 1.0);
-}
-
-// The energy that crushes asperities falls with the size as the field of a charge that grows with
-// another power of it does.
-TEST(NearestRival, OfAsperitiesIsAChargeWithAFreeExponent) {
-  const Case made = make_case({"wall", {"asperity_loss"}, 20.0, 0});
-  ASSERT_TRUE(made.reached);
-  const NearestRival rival = nearest_rival(made);
-  EXPECT_EQ(rival.id, "electrostatic_image");
-  EXPECT_EQ(rival.freed, 1);
-  const ScratchFolder scratch;
-  const std::filesystem::path fit = write_case(without_noise(made), scratch.path());
-  EXPECT_GT(misfit_left(fit, rival.id), 2.0 * rival.misfit);
+  const Answered one_size = ask({"wall-one", {"jkr_hysteresis"}, 10.0, 0}, program, {});
+  ASSERT_TRUE(one_size.ideal);
+  EXPECT_EQ(one_size.ideal->rival.id, "");
+  EXPECT_GT(one_size.ideal->sees, 0.0);
 }
 
 TEST(KeptAnswer, IsFoundByItsOrderOnly) {
@@ -71,7 +55,8 @@ TEST(KeptAnswer, IsFoundByItsOrderOnly) {
   made.verdict = "not_separable";
   made.rivals = {"gas_film", "probe_plane"};
   made.taken = {{4.9e-6, 10.0, 40, {"ambient_pressure", 1.0}}};
-  made.nearest_rival = {"crack_rate", std::numeric_limits<double>::infinity(), 1};
+  made.ideal.emplace(
+      IdealJudge{{"crack_rate", std::numeric_limits<double>::infinity(), 1}, {}, 0.5});
   const std::string text = recoil::json_text(recoil::as_json(made, recoil::NonFinite::word));
   recoil::write_whole_file(scratch.path() / (neutral_name(made.order) + ".json"), text,
                            recoil::Replacing::data);
@@ -81,6 +66,23 @@ TEST(KeptAnswer, IsFoundByItsOrderOnly) {
   CaseOrder other = made.order;
   other.seed = 7;
   EXPECT_FALSE(kept_answer(other, scratch.path()).has_value());
+}
+
+TEST(KeptAnswer, OfWhichNoJudgeWasAskedIsJudgedAndKept) {
+  const ScratchFolder scratch;
+  const fs::path program = stand_in(scratch);
+  const CaseOrder order{"wall-one", {"jkr_hysteresis"}, 10.0, 0};
+  const double sees = ask(order, program, scratch.path()).ideal->sees;
+  Answered kept = *kept_answer(order, scratch.path());
+  kept.complaint = "of before";
+  kept.ideal.reset();
+  recoil::write_whole_file(scratch.path() / (neutral_name(order) + ".json"),
+                           recoil::json_text(recoil::as_json(kept, recoil::NonFinite::word)),
+                           recoil::Replacing::data);
+  const Answered again = ask(order, program, scratch.path());
+  EXPECT_EQ(again.complaint, "of before");
+  EXPECT_EQ(again.ideal->sees, sees);
+  EXPECT_EQ(kept_answer(order, scratch.path())->ideal->sees, sees);
 }
 
 }  // namespace

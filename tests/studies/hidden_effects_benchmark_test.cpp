@@ -24,7 +24,7 @@ Answered answer(const std::vector<std::string>& effects, std::uint64_t index,
   made.verdict = !named.empty() ? "cause_named" : rivals.empty() ? "adequate" : "not_separable";
   made.named = named;
   made.rivals = rivals;
-  if (!effects.empty()) made.nearest_rival = {"elastic_waves", 8.0, 0};
+  if (!effects.empty()) made.ideal.emplace(IdealJudge{{"elastic_waves", 8.0, 0}, {}, 1.0});
   return made;
 }
 

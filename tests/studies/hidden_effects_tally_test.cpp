@@ -30,14 +30,15 @@ Answered answer(const std::string& design, const std::vector<std::string>& effec
 std::vector<Answered> answers() {
   std::vector<Answered> all;
   all.push_back(answer("wall", {"plastic_yield"}, 20.0, "cause_named", {"plastic_yield"}));
-  all.back().nearest_rival = {"elastic_waves", 8.0, 0};
+  all.back().ideal.emplace(IdealJudge{{"elastic_waves", 8.0, 0}, {"elastic_waves", 8.0, 0}, 0.9});
   all.push_back(answer("wall", {"plastic_yield"}, 5.0, "adequate", {}));
   all.push_back(answer("li", {"jkr_hysteresis"}, 20.0, "not_separable", {},
                        {"jkr_hysteresis", "adhesion_hysteresis"}));
   all.back().shared_cause = "adhesion hysteresis";
-  all.back().nearest_rival = {"adhesion_hysteresis", 1.5, 0};
+  all.back().ideal.emplace(
+      IdealJudge{{"adhesion_hysteresis", 1.5, 0}, {"adhesion_hysteresis", 1.5, 0}, 0.9});
   all.push_back(answer("li", {"gas_film"}, 10.0, "cause_named", {"probe_plane"}));
-  all.back().nearest_rival = {"plate_flexure", 5.0, 0};
+  all.back().ideal.emplace(IdealJudge{{"plate_flexure", 5.0, 0}, {"plate_flexure", 5.0, 0}, 0.9});
   all.push_back(answer("wall", {}, 0.0, "adequate", {}));
   all.push_back(answer("wall", {}, 0.0, "unexplained", {}));
   all.back().p_value = 0.01;
@@ -82,11 +83,22 @@ TEST(HiddenEffectsTally, CountsEveryBarOverItsOwnDataSets) {
   EXPECT_EQ(tally.errors_told_astray.n, 3);
 }
 
+double ideal(const StudyTally& tally, std::string_view bar) {
+  for (const auto& [id, number] : *tally.ideal) {
+    if (id == bar) return number;
+  }
+  return -1.0;
+}
+
 // Lambda is 64, 2.25 and 25: the normal distribution at 60/16, -1.75/3 and 21/10 (tables).
-TEST(HiddenEffectsTally, AddsWhatAnIdealJudgeWouldName) {
+TEST(HiddenEffectsTally, AddsWhatAnIdealJudgeWouldReach) {
   const StudyTally tally = tally_of(answers(), 12, {});
-  ASSERT_TRUE(tally.nameable);
-  EXPECT_NEAR(*tally.nameable, 0.9999 + 0.2798 + 0.9821, 2e-4);
+  ASSERT_TRUE(tally.ideal);
+  EXPECT_NEAR(ideal(tally, "named"), 0.9999 + 0.2798 + 0.9821, 2e-4);
+  EXPECT_NEAR(ideal(tally, "listed"), 3 * 0.9, 1e-12);
+  EXPECT_NEAR(ideal(tally, "unseen"), 3 * 0.1, 1e-12);
+  EXPECT_EQ(ideal(tally, "wrong"), -1.0);            // nobody has to be wrong
+  EXPECT_EQ(ideal(tally, "single_diameter"), -1.0);  // he was not asked
 }
 
 TEST(HiddenEffectsTally, KeepsWhatWasHiddenApartByStrengthAndDesign) {

@@ -57,6 +57,7 @@ struct Options {
   hidden::StudySize size;
   std::string only;
   std::size_t first = 0;  ///< of the shuffled orders; 0: all
+  Words whole;            ///< arms of which all orders are taken
   std::string binary;
   bool baseline = false;
   std::string sets;  ///< a folder for the data sets, for other methods
@@ -274,11 +275,19 @@ void study_hidden_effects(const Options& options) {
     if (options.owns(next++)) orders.push_back(order);
   }
   const std::size_t planned = orders.size();
-  if (options.first > 0) orders.resize(std::min(planned, options.first));
+  if (options.first > 0) {
+    std::size_t place = 0;
+    std::erase_if(orders, [&](const hidden::CaseOrder& order) {
+      const std::string_view arm = name_of(hidden::arm_of(order));
+      return place++ >= options.first && std::ranges::count(options.whole, arm) == 0;
+    });
+  }
   const std::vector<hidden::Answered> answers = answers_to(orders, options);
   if (wrote_part(options)) return;
   if (!options.sets.empty()) hidden::write_benchmark(answers, options.sets, options.threads);
-  publish(options, hidden::tally_of(answers, planned, options.size));
+  hidden::StudyTally tally = hidden::tally_of(answers, planned, options.size);
+  tally.whole = options.whole;
+  publish(options, std::move(tally));
 }
 
 // ---- reconstructions ---------------------------------------------------------------------------
@@ -439,6 +448,9 @@ void add_hidden_effects(CLI::App& program, Options& options) {
   command->add_option("--only", options.only, "only orders whose key contains this");
   command->add_option("--first", options.first,
                       "only so many of the shuffled orders: a random sample of the study");
+  command->add_option("--whole", options.whole, "and all orders of these kinds")
+      ->delimiter(',')
+      ->check(CLI::IsMember(all_names<hidden::Arm>()));
   command->add_flag("--baseline", options.baseline,
                     "also ask stepwise AICc and the correlation with a Gaussian process");
   command->add_option("--sets", options.sets,

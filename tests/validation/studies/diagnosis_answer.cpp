@@ -4,13 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "mechanism/mechanism.hpp"
 #include "validation/studies/child.hpp"
 #include "validation/studies/hidden_effects_plan.hpp"
 #include "validation/synthetic/case.hpp"
@@ -130,74 +128,6 @@ Mark mark_of(const Answered& a) {
   return within(named, truth) ? Mark::part : Mark::wrong;
 }
 
-Case without_noise(Case made) {
-  for (std::size_t i = 0; i < made.points.size(); ++i) {
-    made.readings[i] = made.points[i].restitution;
-  }
-  made.design.decimals = 6;
-  return made;
-}
-
-double misfit_left(const fs::path& fit, const std::string& mechanism,
-                   const std::vector<std::string>& freed) {
-  const FitResult fitted =
-      fit_with(fit, mechanism.empty() ? std::vector<std::string>{} : std::vector{mechanism}, freed);
-  return fitted.usable ? std::sqrt(fitted.chi2) : std::numeric_limits<double>::infinity();
-}
-
-namespace {
-
-/// Fits with a spread take a hundred times as long as others.
-bool spreads(std::string_view id) { return id == "polydispersity" || id == "survivor_bias"; }
-
-bool worth_trying(std::string_view other, std::string_view truth) {
-  if (other == truth) return false;
-  return !spreads(other) || spreads(truth) || truth == "rebound_truncation" || truth == "outliers";
-}
-
-/// The parameters that the catalogue fixes and that a search for causes may free.
-std::vector<std::string> released_by_a_search(const std::string& id) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : find_mechanism(id)->info.parameters) {
-    if (!parameter.free && parameter.searched) names.emplace_back(parameter.name);
-  }
-  return names;
-}
-
-}  // namespace
-
-NearestRival nearest_rival(const Case& made) {
-  const ScratchFolder scratch;
-  const fs::path fit = write_case(without_noise(made), scratch.path());
-  NearestRival closest{"", std::numeric_limits<double>::infinity(), 0};
-  for (const HiddenEffect& effect : hidden_effects()) {
-    const bool in_catalogue =
-        effect.kind == EffectKind::physics || effect.kind == EffectKind::measurement;
-    if (!in_catalogue || !worth_trying(effect.id, made.order.effects.front())) {
-      continue;
-    }
-    const std::string id(effect.id);
-    std::vector<std::vector<std::string>> ways = {{}};
-    if (auto freed = released_by_a_search(id); !freed.empty()) ways.push_back(std::move(freed));
-    for (const std::vector<std::string>& freed : ways) {
-      const NearestRival rival = {id, misfit_left(fit, id, freed), static_cast<int>(freed.size())};
-      const auto hard = [](const NearestRival& one) {
-        return std::pair(one.nameable(), one.misfit);
-      };
-      if (hard(rival) < hard(closest)) closest = rival;
-    }
-  }
-  return closest;
-}
-
-double NearestRival::nameable() const {
-  constexpr double margin = 4.0;
-  const double lambda = misfit * misfit;
-  if (!(lambda > 0.0)) return 0.0;
-  if (!std::isfinite(lambda)) return 1.0;
-  return 0.5 * std::erfc((margin - lambda - 2.0 * freed) / (2.0 * std::sqrt(2.0 * lambda)));
-}
-
 std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
   if (keep.empty()) return {};
   std::ifstream in(kept_file(order, keep));
@@ -206,19 +136,52 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep
   return value_from<Answered>(kept);
 }
 
+namespace {
+
+/// The case as it was when the last answer was given, the further points without noise, too.
+Case with_what_was_taken(Case made, const Answered& a) {
+  for (std::size_t k = 0; k < a.taken.size(); ++k) {
+    const std::size_t before = made.points.size();
+    take_further(made, a.taken[k], k);
+    if (made.points.size() == before) continue;
+    Point& last = made.points.back();
+    const Effects effects = under(last.changed, made.effects);
+    const Expected e = expected_point(made.design.base, effects, made.design.scatter, last.velocity,
+                                      last.diameter, last.row);
+    if (last.restitution > 0.0 && e.restitution > 0.0) last.restitution = e.restitution;
+  }
+  return made;
+}
+
+/// Of these an ideal judge is asked what can be seen, and of the last ones what can be named, too.
+bool is_judged(Arm arm) {
+  return arm == Arm::single || arm == Arm::bent || arm == Arm::other_law || arm == Arm::effect ||
+         arm == Arm::loop;
+}
+bool is_judged_with_rivals(Arm arm) { return arm == Arm::effect || arm == Arm::loop; }
+
+}  // namespace
+
 Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep, bool baseline) {
-  if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
-  Answered a;
-  a.order = order;
-  const Case made = make_case(order);
-  a.reached = made.reached;
-  a.signal_to_noise = made.refit.signal_to_noise;
-  if (made.reached) diagnose_in_rounds(made, binary, a);
+  std::optional<Answered> kept = kept_answer(order, keep);
   const Arm arm = arm_of(order);
-  const bool seen = arm == Arm::effect && order.signal_to_noise >= visible;
-  if (made.reached && seen) a.nearest_rival = nearest_rival(made);
-  if (made.reached && baseline && (seen || (arm == Arm::correct && order.index % 4 == 0))) {
-    a.baseline = baseline_answers(made);
+  const bool seen = order.signal_to_noise >= visible && is_judged(arm);
+  if (kept && (!seen || !kept->reached || kept->ideal)) return *std::move(kept);
+  const Case made = make_case(order);
+  Answered a;
+  if (kept) {
+    a = *std::move(kept);
+  } else {
+    a.order = order;
+    a.reached = made.reached;
+    a.signal_to_noise = made.refit.signal_to_noise;
+    if (made.reached) diagnose_in_rounds(made, binary, a);
+    const bool compared =
+        (seen && arm == Arm::effect) || (arm == Arm::correct && order.index % 4 == 0);
+    if (made.reached && baseline && compared) a.baseline = baseline_answers(made);
+  }
+  if (made.reached && seen) {
+    a.ideal.emplace(ideal_judge(with_what_was_taken(made, a), is_judged_with_rivals(arm)));
   }
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;

@@ -8,22 +8,10 @@
 #include "core/json.hpp"
 #include "core/names.hpp"
 #include "validation/studies/baseline.hpp"
+#include "validation/studies/ideal_judge.hpp"
 #include "validation/synthetic/case.hpp"
 
 namespace recoil::hidden {
-
-/// The single cause of the catalogue, other than the true one, that comes closest to it.
-struct NearestRival {
-  std::string id;
-  double misfit = 0.0;  ///< that it leaves of data without noise, as a signal-to-noise
-  int freed = 0;        ///< its parameters that the catalogue fixes and that were fitted
-  RECOIL_FIELDS(id, misfit, freed)
-
-  /// The probability that its criterion is worse by 4 than that of the true cause: nobody who asks
-  /// for odds of e^2 names the cause more often. With lambda the square of the misfit, the
-  /// difference is normal with the mean lambda + 2 freed and the variance 4 lambda.
-  double nameable() const;
-};
 
 /// What the diagnosis of one case answered, beside what is true.
 struct Answered {
@@ -46,17 +34,16 @@ struct Answered {
   bool hint = false;                   ///< no cause is named, but exact laws would leave structure
   std::vector<std::string> hinted;     ///< what that is most like
   std::vector<std::string> exact_named;  ///< what would then be named
-  int odd = 0;               ///< points that are misread by more than 5 standard deviations,
-  int odd_found = 0;         ///< of these, set aside by the answer,
-  int right = 0;             ///< the others,
-  int accused = 0;           ///< and of them
-  bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
-  NearestRival
-      nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
+  int odd = 0;                 ///< points that are misread by more than 5 standard deviations,
+  int odd_found = 0;           ///< of these, set aside by the answer,
+  int right = 0;               ///< the others,
+  int accused = 0;             ///< and of them
+  bool errors_told = false;    ///< errors that were not stated would do, and the answer says so
+  OrAbsent<IdealJudge> ideal;  ///< of a visible effect
   OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
                 verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
-                exact_named, odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
+                exact_named, odd, odd_found, right, accused, errors_told, ideal, baseline)
 };
 
 /// How an answer stands to the truth.
@@ -77,21 +64,6 @@ constexpr auto names_of_values(Mark) {
                    "not separable, not listed", "no answer");
 }
 Mark mark_of(const Answered& answered);
-
-/// Fits every other mechanism (base parameters free) to the case without noise, also with the
-/// parameters free that a diagnosis may release. What leaves less than 3 or so, no data of this
-/// size can exclude: an honest answer lists it. Whether its parameters would be plausible is not
-/// asked. The spreads of size and adhesion, slow to fit, are tried only on what else happens near
-/// capture.
-NearestRival nearest_rival(const Case& made);
-
-/// The case with its noise taken away.
-Case without_noise(Case made);
-
-/// Misfit that a fit leaves of a written case with `mechanism` (or none, when empty), as a
-/// signal-to-noise; infinite when there is no fit.
-double misfit_left(const std::filesystem::path& fit, const std::string& mechanism,
-                   const std::vector<std::string>& freed = {});
 
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);

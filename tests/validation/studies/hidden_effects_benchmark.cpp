@@ -24,11 +24,11 @@ bool is_counted(const Answered& a) {
 }
 
 std::string truth_row(const Answered& a) {
-  const bool known = is_counted(a) && !a.nearest_rival.id.empty();
+  const bool known = is_counted(a) && a.ideal;
   return fmt::format("{},{},{},{},{:g},{},{}\n", neutral_name(a.order), ids_text(a.order.effects),
                      name_of(arm_of(a.order)), a.order.design, a.order.signal_to_noise,
                      is_counted(a) ? 1 : 0,
-                     known ? fmt::format("{:.4f}", a.nearest_rival.nameable()) : "");
+                     known ? fmt::format("{:.4f}", a.ideal->rival.nameable()) : "");
 }
 
 /// What one method answers: the causes that it names, and those that it lists.

@@ -29,6 +29,15 @@ Sentence verdict_words(const Bar& bar, const Count& count) {
                                                                 : strong("missed");
 }
 
+Sentence ideal_share(const StudyTally& tally, const Bar& bar) {
+  const int n = tally.bar(bar.id).n;
+  if (!tally.ideal || n == 0) return {};
+  for (const auto& [id, number] : *tally.ideal) {
+    if (id == bar.id) return fmt::format("{:.0f} %, {:.0f}", 100.0 * number / n, number);
+  }
+  return {};
+}
+
 Table bars_table(const StudyTally& tally) {
   std::vector<Bar> counted;
   for (const Bar& bar : study_bars()) {
@@ -44,6 +53,7 @@ Table bars_table(const StudyTally& tally) {
           return word_cell(fmt::format("{} {:.0f} %", bar.at_least ? "≥" : "≤", 100.0 * bar.share));
         }},
        {"found (95 % interval)", [&](const Bar& bar) { return share(tally.bar(bar.id)); }, true},
+       {"an ideal judge", [&](const Bar& bar) { return ideal_share(tally, bar); }},
        {"verdict", [&](const Bar& bar) { return verdict_words(bar, tally.bar(bar.id)); }, true}});
 }
 
@@ -186,11 +196,13 @@ Sentence careless_words(const StudyTally& tally) {
 
 /// What nobody could do better; empty for results that were made without it.
 Sentence ideal_words(const StudyTally& tally) {
-  if (!tally.nameable) return {};
-  return say(
-      "An ideal judge, who knows the noise and the laws and asks for odds of e², would name {:.0f} "
-      "of the {} visible effects. ",
-      *tally.nameable, tally.bar("named").n);
+  if (!tally.ideal) return {};
+  return "The ideal judge knows the noise of the points, and what may be hidden, with its size. He "
+         "names a cause if its odds against the nearest rival (or, where a common cause counts, "
+         "against the nearest that is no law of it) are e² or more; the laws are exact then. He "
+         "sees a misfit by the most powerful test that allows errors of the laws of 3 to 12 % and "
+         "raises a false alarm in 5 % of such data. After experiments he has the same further "
+         "impacts, and does both. ";
 }
 
 Sentence missed_words(const StudyTally& tally) {
@@ -206,10 +218,13 @@ Sentence missed_words(const StudyTally& tally) {
 
 std::vector<Block> foreword(const StudyTally& tally) {
   const auto seed = static_cast<long long>(tally.seed);
+  const Sentence kinds = tally.whole.empty() ? Sentence()
+                                             : say(", and all of the kinds {}",
+                                                   fmt::format("{}", fmt::join(tally.whole, ", ")));
   const Sentence made =
       tally.tried < tally.planned
-          ? say("Seed {}; a random sample of {} of {} data sets, {} of them made.", seed,
-                tally.tried, tally.planned, tally.made)
+          ? say("Seed {}; {} of {} data sets, {} of them made: a random sample{}.", seed,
+                tally.tried, tally.planned, tally.made, kinds)
           : say("Seed {}; {} data sets, {} of them made.", seed, tally.tried, tally.made);
   std::vector<Block> blocks = {
       Paragraph{

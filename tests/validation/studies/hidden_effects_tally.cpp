@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/statistics.hpp"
@@ -44,7 +45,7 @@ Count count(const Bar& bar, const std::vector<Answered>& all) {
 Bar points_bar(const char* id, const char* words, double share, bool at_least, int Answered::*part,
                int Answered::*whole) {
   const auto is_odd = [](const Answered& a) { return arm_of(a.order) == Arm::odd; };
-  return {id, words, share, at_least, is_odd, {}, part, whole};
+  return {id, words, share, at_least, is_odd, {}, {}, part, whole};
 }
 
 Test marked(const std::vector<Mark>& marks) {
@@ -58,10 +59,20 @@ bool is_visible(const Answered& a) { return a.order.signal_to_noise >= visible; 
 bool is_told(const Answered& a) {
   return mark_of(a) == Mark::named || (mark_of(a) == Mark::inside && !a.shared_cause.empty());
 }
-bool can_be_named(const Answered& a) { return a.nearest_rival.misfit >= separable; }
+bool can_be_named(const Answered& a) { return a.ideal && a.ideal->rival.misfit >= separable; }
+
+/// How often an ideal judge names it, if the laws are exact.
+double nameable(const Answered& a) { return a.ideal->rival.nameable(); }
+/// How often he tells its cause, by its own name or by that of all its laws.
+double tellable(const Answered& a) { return a.ideal->other.nameable(); }
+/// How often he sees a misfit if the laws may err; or does not.
+double seeable(const Answered& a) { return a.ideal->sees; }
+double unseeable(const Answered& a) { return 1.0 - a.ideal->sees; }
+/// He tells the cause of what he sees: at most so often.
+double tellable_and_seeable(const Answered& a) { return std::min(tellable(a), seeable(a)); }
 
 /// Would an ideal judge name it in half of the data sets or more?
-bool is_nameable(const Answered& a) { return a.nearest_rival.nameable() >= 0.5; }
+bool is_nameable(const Answered& a) { return a.ideal && nameable(a) >= 0.5; }
 
 /// What is hidden is named, if need be on the condition that the laws are exact.
 bool is_named_if_exact(const Answered& a) {
@@ -87,6 +98,7 @@ bool hides(const Answered& a) { return !a.order.effects.empty(); }
 bool hides_nothing(const Answered& a) { return a.order.effects.empty(); }
 bool sees_structure(const Answered& a) { return a.verdict != "adequate"; }
 bool follows_other_law(const Answered& a) { return a.order.other_law; }
+bool states_it(const Answered& a) { return states_rounding(a.order); }
 bool names_a_cause(const Answered& a) { return a.verdict == "cause_named"; }
 bool hints(const Answered& a) { return a.hint; }
 /// Named, listed, its shape recognised, or listed as what exact laws would leave.
@@ -116,10 +128,10 @@ NotNamed not_named_of(const std::vector<Answered>& all) {
 std::vector<RivalRow> rivals_of(const std::vector<Answered>& all) {
   std::map<std::pair<std::string, double>, std::pair<RivalRow, std::vector<double>>> rows;
   for (const Answered* a : those(all, in(Arm::effect))) {
-    if (a->nearest_rival.id.empty()) continue;
+    if (!a->ideal || a->ideal->rival.id.empty()) continue;
     auto& [row, misfits] = rows[{a->order.effects.front(), a->order.signal_to_noise}];
-    ++row.rivals[a->nearest_rival.id];
-    misfits.push_back(a->nearest_rival.misfit);
+    ++row.rivals[a->ideal->rival.id];
+    misfits.push_back(a->ideal->rival.misfit);
   }
   std::vector<RivalRow> found;
   for (auto& [key, entry] : rows) {
@@ -323,6 +335,23 @@ std::vector<AllowanceRow> allowance_of(const std::vector<Answered>& all) {
   return rows;
 }
 
+/// Of every bar that he is asked of, and whose data sets he knows: his expected number.
+OrAbsent<Named<double>> ideal_of(const std::vector<Answered>& all) {
+  Named<double> sums;
+  for (const Bar& bar : study_bars()) {
+    const Answers among = bar.ideal ? those(all, bar.among) : Answers();
+    const auto known = [](const Answered* a) { return a->ideal.has_value(); };
+    if (among.empty() || !std::all_of(among.begin(), among.end(), known)) continue;
+    sums.emplace_back(bar.id, std::accumulate(among.begin(), among.end(), 0.0,
+                                              [&](double sum, const Answered* a) {
+                                                return sum + bar.ideal(*a);
+                                              }));
+  }
+  OrAbsent<Named<double>> found;
+  if (!sums.empty()) found.emplace(std::move(sums));
+  return found;
+}
+
 }  // namespace
 
 const std::vector<Bar>& study_bars() {
@@ -337,7 +366,7 @@ const std::vector<Bar>& study_bars() {
   static const Test dropped = both(seen(Arm::dropped), hides);
   static const Test rounded = both(seen(Arm::rounded), hides);
   static const std::vector<Bar> bars = {
-      {"named", "visible effect named outright", 0.80, true, effects, named},
+      {"named", "visible effect named outright", 0.80, true, effects, named, nameable},
       {"separable_named", "the same, where the nearest other cause leaves a misfit of 4 or more",
        0.80, true, both(effects, can_be_named), named},
       {"nameable_named", "the same, where an ideal judge names it in half of the cases or more",
@@ -348,8 +377,8 @@ const std::vector<Bar>& study_bars() {
        effects, is_wrong_if_exact},
       {"bent_if_exact_wrong", "the same, law bent by 10 %", 0.08, false, bent, is_wrong_if_exact},
       {"named_or_law", "visible effect named, or the cause of which it and all its rivals are laws",
-       0.80, true, effects, is_told},
-      {"listed", "visible effect among named and rivals", 0.95, true, effects, listed},
+       0.80, true, effects, is_told, tellable},
+      {"listed", "visible effect among named and rivals", 0.95, true, effects, listed, seeable},
       {"wrong", "wrong cause named, or one shared by laws among which it is not", 0.02, false,
        effects, is_wrong},
       {"false_alarm", "false alarms, nothing hidden", 0.05, false, in(Arm::correct), alarms},
@@ -360,10 +389,10 @@ const std::vector<Bar>& study_bars() {
       {"unstated_told", "the same, where structure is seen: told that such errors would explain it",
        0.80, true, both(in(Arm::careless), sees_structure), tells_of_errors},
       {"single_diameter", "one diameter: answered by not_separable", 0.80, true,
-       both(in(Arm::single), hides), marked({Mark::inside, Mark::outside})},
-      {"unseen", "visible effect called adequate", 0.05, false, effects, adequate},
+       both(in(Arm::single), hides), marked({Mark::inside, Mark::outside}), seeable},
+      {"unseen", "visible effect called adequate", 0.05, false, effects, adequate, unseeable},
       {"bent_listed", "law bent by 10 %: among named and rivals, or its shape recognised", 0.90,
-       true, bent, recognised},
+       true, bent, recognised, seeable},
       {"hinted",
        "visible effect among named and rivals, its shape recognised, or told as what exact laws "
        "would leave",
@@ -375,21 +404,21 @@ const std::vector<Bar>& study_bars() {
       {"bent_unexplained", "law bent by 10 %: unexplained", 0.10, false, bent, unexplained},
       {"other_listed",
        "made by another published law: among named and rivals, or its shape recognised", 0.90, true,
-       other, recognised},
+       other, recognised, seeable},
       {"other_wrong",
        "made by another published law, dry ones beside adhesion included: wrong cause named", 0.03,
        false, follows_other_law, is_wrong},
       {"other_unexplained", "made by another published law: unexplained", 0.10, false, other,
        unexplained},
       {"other_unseen", "made by another published law: called adequate", 0.05, false, other,
-       adequate},
+       adequate, unseeable},
       {"base_alarm", "nothing hidden, losses of the base model bent by 3 %: alarms", 0.05, false,
        in(Arm::base_bent), alarms},
       {"impossible_named", "effect of impossible size: a cause named", 0.03, false,
        in(Arm::impossible), names_a_cause},
       {"loop_named",
        "after doing what the answer advises, three times at most: named, or the cause told", 0.95,
-       true, in(Arm::loop), is_told},
+       true, in(Arm::loop), is_told, tellable_and_seeable},
       {"loop_wrong", "the same: a wrong cause named or told", 0.02, false, in(Arm::loop), is_wrong},
       {"dropped_listed", "drops of spheres of millimetres: among named and rivals", 0.95, true,
        dropped, listed},
@@ -400,6 +429,8 @@ const std::vector<Bar>& study_bars() {
        both(in(Arm::rounded), hides_nothing), names_a_cause},
       {"rounded_listed", "the same with an effect: among named and rivals, or its shape recognised",
        0.80, true, rounded, recognised},
+      {"rounded_stated_listed", "the same, where the standard deviations include the rounding",
+       0.80, true, both(rounded, states_it), recognised},
       {"rounded_wrong", "the same: wrong cause named", 0.03, false, rounded, is_wrong},
       {"odd_named", "a few points misread: a cause named", 0.03, false, in(Arm::odd),
        names_a_cause},
@@ -431,9 +462,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   tally.made = static_cast<int>(those(answers, [](const Answered&) { return true; }).size());
   for (const Bar& bar : study_bars()) tally.bars.emplace_back(bar.id, count(bar, answers));
   tally.not_named = not_named_of(answers);
-  double ideal = 0.0;
-  for (const Answered* a : those(answers, seen(Arm::effect))) ideal += a->nearest_rival.nameable();
-  tally.nameable = ideal;
+  tally.ideal = ideal_of(answers);
   tally.rivals = rivals_of(answers);
   tally.powers = powers_of(answers);
   tally.confusion = confusion_of(answers);

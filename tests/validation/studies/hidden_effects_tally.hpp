@@ -40,7 +40,9 @@ struct Bar {
   bool at_least;
   std::function<bool(const Answered&)> among;   ///< the data sets that count
   std::function<bool(const Answered&)> passes;  ///< those with the answer in question
-  int Answered::*part = nullptr;                ///< where points count instead of data sets
+  std::function<double(const Answered&)> ideal =
+      {};                         ///< how often an ideal judge gives it; or empty
+  int Answered::*part = nullptr;  ///< where points count instead of data sets
   int Answered::*whole = nullptr;
 };
 const std::vector<Bar>& study_bars();
@@ -141,10 +143,11 @@ struct StudyTally {
   std::uint64_t seed = 0;
   int planned = 0;
   int tried = 0;
-  int made = 0;       ///< of the tried: the wanted strength exists
-  Named<Count> bars;  ///< by the id of the bar
+  int made = 0;                    ///< of the tried: the wanted strength exists
+  std::vector<std::string> whole;  ///< kinds of data sets that were all tried
+  Named<Count> bars;               ///< by the id of the bar
+  OrAbsent<Named<double>> ideal;   ///< the number that an ideal judge reaches at most
   NotNamed not_named;
-  OrAbsent<double> nameable;  ///< expected number of visible effects that anybody could name
   std::vector<RivalRow> rivals;
   std::vector<PowerRow> powers;
   Confusion confusion;
@@ -156,8 +159,9 @@ struct StudyTally {
   std::vector<UnreachedRow> unreached;
   OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
   OrAbsent<std::vector<AllowanceRow>> allowance;
-  RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, nameable, rivals, powers, confusion,
-                alarms, errors_told_astray, times, loop, complaints, unreached, methods, allowance)
+  RECOIL_FIELDS(seed, planned, tried, made, whole, bars, ideal, not_named, rivals, powers,
+                confusion, alarms, errors_told_astray, times, loop, complaints, unreached, methods,
+                allowance)
 
   Count bar(std::string_view id) const;  ///< of no data sets where the study has no such bar
 };

@@ -76,7 +76,9 @@ const std::vector<Study>& all_studies() {
       {"coverage-noise", "coverage-noise --datasets 200 --replicates 39"},
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
-       "--impossible 2 --first 900 --baseline --seed 20261123"},
+       "--impossible 2 --first 900 "
+       "--whole single,other_law,other_adhesive,impossible,loop,rounded,odd "
+       "--baseline --seed 20261123"},
       {"posterior-ranks", "posterior-ranks --datasets 400"},
       {"pairing", "pairing"},
   };

@@ -112,6 +112,10 @@ std::uint64_t CaseOrder::experiment_seed() const {
   return number_of(fmt::format("{}{}#{}#{}", design, joined(effects), index, seed));
 }
 
+bool states_rounding(const CaseOrder& order) {
+  return order.readout != Readout::exact && order.index % 4 >= 2;
+}
+
 std::string neutral_name(const CaseOrder& order) {
   return fmt::format("impacts-{:08x}",
                      number_of(order.key() + std::to_string(order.seed)) % 0x100000000ULL);
@@ -127,7 +131,7 @@ Case make_case(const CaseOrder& order) {
     made.design = draw_design(order.design, ++seed);
   }
   made.design.readout = order.readout;
-  made.design.states_rounding = order.readout != Readout::exact && order.index % 4 >= 2;
+  made.design.states_rounding = states_rounding(order);
   made.reached = true;
   made.effects.other_laws = order.other_law;
   for (std::size_t k = 0; k < order.effects.size(); ++k) {

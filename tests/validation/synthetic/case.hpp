@@ -47,6 +47,8 @@ struct CaseOrder {
   /// The same for all strengths of one experiment, so that these differ in strength only.
   std::uint64_t experiment_seed() const;
 };
+/// Do its standard deviations include the rounding of what is read?
+bool states_rounding(const CaseOrder& order);
 
 struct Case {
   CaseOrder order;

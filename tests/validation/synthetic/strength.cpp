@@ -5,14 +5,11 @@
 #include <cmath>
 
 namespace recoil::hidden {
-namespace {
-
-/// (e^2 - e_base^2) / (sd (e + e_base)) of every point, the base with C_H and C_A.
-Eigen::VectorXd residuals(const Design& design, const std::vector<Point>& points,
-                          const Eigen::Vector2d& damping) {
+Eigen::VectorXd base_residuals(const Design& design, const std::vector<Point>& points, double C_H,
+                               double C_A) {
   Base base = design.base;
-  base.C_H = damping(0);
-  base.C_A = damping(1);
+  base.C_H = C_H;
+  base.C_A = C_A;
   static const Effects nothing;
   Eigen::VectorXd all(static_cast<Eigen::Index>(points.size()));
   std::transform(points.begin(), points.end(), all.begin(), [&](const Point& p) {
@@ -23,12 +20,13 @@ Eigen::VectorXd residuals(const Design& design, const std::vector<Point>& points
   return all;
 }
 
-}  // namespace
-
 Refit refit_base(const Design& design, const std::vector<Point>& points) {
+  const auto residuals = [&](const Eigen::Vector2d& damping) {
+    return base_residuals(design, points, damping(0), damping(1));
+  };
   Eigen::Vector2d x(design.base.C_H, design.base.C_A);
   const Eigen::Vector2d unit = x.cwiseMax(1e-6);
-  Eigen::VectorXd now = residuals(design, points, x);
+  Eigen::VectorXd now = residuals(x);
   double damping = 1e-3;
   for (int round = 0; round < 60; ++round) {
     Eigen::MatrixX2d slope(now.size(), 2);
@@ -36,7 +34,7 @@ Refit refit_base(const Design& design, const std::vector<Point>& points) {
       const double h = 1e-4 * unit(j) + 1e-4 * x(j);
       Eigen::Vector2d moved = x;
       moved(j) += h;
-      slope.col(j) = (residuals(design, points, moved) - now) / h;
+      slope.col(j) = (residuals(moved) - now) / h;
     }
     Eigen::Vector2d gradient = slope.transpose() * now;
     Eigen::Matrix2d normal = slope.transpose() * slope;
@@ -55,7 +53,7 @@ Refit refit_base(const Design& design, const std::vector<Point>& points) {
       Eigen::Matrix2d damped = normal;
       damped.diagonal() *= 1.0 + damping;
       const Eigen::Vector2d next = (x - damped.inverse() * gradient).cwiseMax(0.0);
-      const Eigen::VectorXd there = residuals(design, points, next);
+      const Eigen::VectorXd there = residuals(next);
       if (there.squaredNorm() <= now.squaredNorm()) {
         step_size = (next - x).cwiseAbs().cwiseQuotient(unit).sum();
         gain = now.squaredNorm() - there.squaredNorm();

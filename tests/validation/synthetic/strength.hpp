@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,8 +16,13 @@ struct Refit {
   double signal_to_noise = 0.0;  ///< sqrt(sum ((e - e_base) / sd)^2) at the best fit
 };
 
-/// Levenberg and Marquardt's method with difference quotients, from the true parameters. Residuals
-/// are those of e^2, continued below capture, over sd (e + e_base).
+/// (e^2 - e_base^2) / (sd (e + e_base)) of every point, the base with C_H and C_A [s/m]; e_base^2
+/// is continued below capture.
+Eigen::VectorXd base_residuals(const Design& design, const std::vector<Point>& points, double C_H,
+                               double C_A);
+
+/// Levenberg and Marquardt's method with difference quotients, from the true parameters, on
+/// `base_residuals`.
 Refit refit_base(const Design& design, const std::vector<Point>& points);
 
 /// How strong an effect must be to leave a misfit of `target`.
