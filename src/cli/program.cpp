@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -121,6 +122,14 @@ class HelpFormatter : public CLI::Formatter {
 
 namespace {
 
+/// What the option `word` of another command is called here; empty if it is not known.
+std::string same_elsewhere(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::array<std::string_view, 2> folder = {"--out", "--into"};  // where results go
+  if (std::ranges::find(folder, word) == folder.end()) return "";
+  const auto here = std::ranges::find_first_of(known, folder);
+  return here == known.end() ? "" : *here;
+}
+
 /// A message about the first unknown --option of a command, with the nearest known one; empty if
 /// all are known.
 std::string unknown_option(const std::string& command, const std::vector<std::string>& words) {
@@ -130,7 +139,8 @@ std::string unknown_option(const std::string& command, const std::vector<std::st
     const std::string word = words[i].substr(0, words[i].find('='));
     if (!word.starts_with("--") || word == "--") continue;
     if (std::ranges::find(known, word) != known.end()) continue;
-    const std::string near = nearest_word(word, known);
+    std::string near = nearest_word(word, known);
+    if (near.empty()) near = same_elsewhere(word, known);
     return fmt::format("unknown option '{}' of recoil {}; {}", word, command,
                        near.empty() ? fmt::format("see recoil {} --help", command)
                                     : fmt::format("did you mean {}?", near));

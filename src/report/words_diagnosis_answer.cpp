@@ -283,15 +283,16 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
   return "A cause that is not listed is possible, too.";
 }
 
-/// The cause that the misfit resembles, and why it is not possible.
+/// The causes that the misfit resembles, and why each is not possible.
 std::string resembling_words(const Diagnosis& d, const Resembles& shown) {
-  const CandidateResult* const first = single_named(d, shown.causes.front());
-  const std::string shape =
-      fmt::format("The misfit resembles {}", mechanism_titles(shown.causes, " or "));
-  return first == nullptr
-             ? shape + ", which is not possible."
-             : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
-                           shape, because_words(*first));
+  const std::string causes = joined(shown.causes, " or ", [&](const std::string& id) {
+    const CandidateResult* const cause = single_named(d, id);
+    const std::string title = mechanism_title(id);
+    return cause == nullptr ? title : fmt::format("{} ({})", title, because_words(*cause));
+  });
+  return fmt::format(
+      "The misfit resembles {}, which cannot be its cause; no plausible cause comes as close.",
+      causes);
 }
 
 /// The cause that leaves no structure, and why it is not named; empty without one.
@@ -493,7 +494,7 @@ std::vector<std::string> impossible_words(const Diagnosis& d) {
   const std::vector<std::string> rivals = d.rivals();
   const std::vector<std::string> resembles = d.resembles();
   for (const CandidateResult& c : d.candidates) {
-    const bool in_answer = !resembles.empty() && resembles.front() == c.candidate.name();
+    const bool in_answer = std::ranges::find(resembles, c.candidate.name()) != resembles.end();
     if (in_answer || c.plausible || c.delta_aicc >= answer) continue;
     if (words.size() == most_impossible) break;
     const bool listed = std::ranges::find(rivals, c.candidate.name()) != rivals.end();

@@ -360,6 +360,14 @@ TEST(CommandLine, SuggestsTheNearestOption) {
   EXPECT_NE(run.err.find("did you mean --replicates?"), std::string::npos) << run.err;
 }
 
+TEST(CommandLine, SuggestsTheNameOfTheFolderInThisCommand) {
+  const Workplace place;
+  const Outcome made = place.run({"import", "x.csv", "--out", "y"});
+  EXPECT_NE(made.err.find("did you mean --into?"), std::string::npos) << made.err;
+  const Outcome written = place.run({"bounce", "x.csv", "--into", "y"});
+  EXPECT_NE(written.err.find("did you mean --out?"), std::string::npos) << written.err;
+}
+
 TEST(CommandLine, SuggestsTheNearestFitFile) {
   const Workplace place;
   const Outcome near = place.run({"diagnose", "fits.toml"});
