@@ -132,7 +132,8 @@ struct PredictedImpacts {
   std::vector<double> variance;     ///< variance of that mean over the variance of one impact
 };
 
-/// e of the possible impacts, 0 for a capture; NaN if an impact cannot be solved.
+/// e of the possible impacts, -sqrt(-e^2) for a capture: the further from rebounding, the lower;
+/// NaN if an impact cannot be solved.
 Eigen::ArrayXd restitutions(const ImpactModel& model, const std::vector<double>& theta,
                             const PossibleImpacts& possible, const Mechanism* removed) {
   const std::vector<double> changed =
@@ -140,10 +141,13 @@ Eigen::ArrayXd restitutions(const ImpactModel& model, const std::vector<double>&
   Eigen::ArrayXd found(static_cast<Eigen::Index>(possible.at.size()));
   Eigen::Index i = 0;
   for (const Prediction& at : predict(model, changed, possible.at, false)) {
-    found(i++) = at.usable() ? at.restitution() : NAN;
+    const double square = at.usable() ? at.restitution_squared : NAN;
+    found(i++) = std::copysign(std::sqrt(std::abs(square)), square);
   }
   return found;
 }
+
+double or_capture(double e) { return e < 0.0 ? 0.0 : e; }
 
 /// The normal distribution of the unknowns of a rival given the measured points, and what they do
 /// to the possible impacts.
@@ -161,7 +165,8 @@ std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResul
   const std::vector<double>& theta = rival.refit.theta;
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
-  const Eigen::ArrayXd expected = restitutions(model, theta, possible, removed);
+  const Eigen::ArrayXd expected =
+      restitutions(model, theta, possible, removed).unaryExpr(&or_capture);
   const WeightedData all =
       with_possible(base.fitted, possible, {expected.data(), expected.data() + expected.size()});
   LawErrors laws = base.laws;
@@ -223,9 +228,8 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
                                model.slots[slot].upper);
     }
     const Eigen::ArrayXd by_laws = (unknowns->by_laws * x.tail(count - p)).array();
-    const auto or_capture = [](double e) { return e < 0.0 ? 0.0 : e; };
     drawn.col(k) =
-        (restitutions(model, theta, possible, removed) - sd * by_laws).unaryExpr(or_capture);
+        (restitutions(model, theta, possible, removed) - sd * by_laws).unaryExpr(&or_capture);
   }
   const Eigen::ArrayXd mean = drawn.rowwise().mean();
   const Eigen::ArrayXd variance = (drawn.colwise() - mean).square().rowwise().mean();

@@ -21,10 +21,19 @@ struct LawErrorPrior {
   bool operator==(const LawErrorPrior&) const = default;
 };
 
+/// The factor of the loss, 1 + g. An impact cannot gain energy, so that below g = -1/2 the factor
+/// goes on with the same slope as -1 / (4 g), which is above 0.
+struct LossFactor {
+  double value;  ///< [1]
+  double slope;  ///< its derivative by g [1]
+  explicit LossFactor(double g)
+      : value(g < -0.5 ? -0.25 / g : 1.0 + g), slope(g < -0.5 ? 0.25 / (g * g) : 1.0) {}
+};
+
 /// The error of the laws: no law of an impact is exact. The model's loss of energy has an unknown
 /// factor,
 ///   1 - e^2 = (1 - e_model^2) (1 + g(ln V, ln d)),
-/// with g normal, its mean 0, its covariance s^2 k and
+/// (`LossFactor`) with g normal, its mean 0, its covariance s^2 k and
 ///   k = exp(-(D ln V)^2 / (2 length^2)) exp(-(D ln d)^2 / (2 length_d^2)),
 /// or, `by_size`, the first factor for one size and 0 between two. It is a discrepancy in the sense
 /// of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63, 425-464). With independent normal

@@ -85,7 +85,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   if (law_error != nullptr) {
     const std::size_t count = law_error->count();
     law_functions_.resize(points_.size() * count);
-    loss_factor_.resize(points_.size());
+    bends_.resize(points_.size(), LossFactor(0.0));
     over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t own) {
       for (std::size_t i = first; i < first + own; ++i) {
         law_error->functions(points_[i], std::span(law_functions_).subspan(i * count, count));
@@ -173,7 +173,8 @@ void PointPredictor::take_law_error(std::span<const double> theta) {
   const std::span<const double> z = theta.subspan(model_.first_law_slot());
   over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
-      loss_factor_[i] = std::inner_product(z.begin(), z.end(), &law_functions_[i * z.size()], 1.0);
+      bends_[i] =
+          LossFactor(std::inner_product(z.begin(), z.end(), &law_functions_[i * z.size()], 0.0));
     }
   });
 }
@@ -184,7 +185,7 @@ void PointPredictor::bend(std::size_t first, std::span<ImpactResult> answers) co
     ImpactResult& answer = answers[k];
     if (!answer.usable()) continue;
     double& square = answer.restitution_squared;
-    square = 1.0 - (1.0 - square) * loss_factor_[first + k];
+    square = 1.0 - (1.0 - square) * loss_factor(first + k);
     answer.outcome = square > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
   }
 }
@@ -395,7 +396,8 @@ void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, dou
   const double loss = (1.0 - answer.restitution_squared) / loss_factor(i);
   const std::size_t count = law_error_->count();
   for (std::size_t k = 0; k < count; ++k) {
-    row[model_.first_law_slot() + k] = -scale * loss * law_functions_[i * count + k];
+    row[model_.first_law_slot() + k] =
+        -scale * loss * bends_[i].slope * law_functions_[i * count + k];
   }
 }
 
@@ -464,7 +466,7 @@ double PointPredictor::bent_slope(std::size_t i, double slope,
   };
   const double bend = (g(1.0 + step) - g(1.0 - step)) / (2.0 * step * points_[i].*input);
   const double loss = (1.0 - results_[i].restitution_squared) / loss_factor(i);
-  return loss_factor(i) * slope - loss * bend;
+  return loss_factor(i) * slope - loss * bends_[i].slope * bend;
 }
 
 double PointPredictor::velocity_slope(std::size_t i) const {

@@ -92,8 +92,8 @@ class PointPredictor {
   void take_parameters(std::span<const double> theta, bool gradient);
   void take_materials(std::span<const double> theta, bool gradient);
   void take_law_error(std::span<const double> theta);
-  /// 1 + g of the error of the laws at point i, for the last theta.
-  double loss_factor(std::size_t i) const { return loss_factor_.empty() ? 1.0 : loss_factor_[i]; }
+  /// By the error of the laws at point i, for the last theta.
+  double loss_factor(std::size_t i) const { return bends_.empty() ? 1.0 : bends_[i].value; }
   /// Applies the error of the laws to the answers of points `first`, `first` + 1, ...
   void bend(std::size_t first, std::span<ImpactResult> answers) const;
   void base_gradient_row(std::size_t i, const ImpactResult& answer, double scale,
@@ -127,7 +127,7 @@ class PointPredictor {
   std::vector<std::vector<MaterialSlope>> material_slopes_;  // empty if exact
   std::vector<Surroundings> surroundings_;
   std::vector<double> law_functions_;        // phi of LawError [points x coefficients]; or empty
-  std::vector<double> loss_factor_;          // 1 + g [points]
+  std::vector<LossFactor> bends_;            // of the losses [points]; or empty
   std::optional<ExtendedImpacts> extended_;  // when mechanisms act
   std::vector<std::size_t> slots_;           // slots of the values of every point, with extended_
   std::vector<double> nulls_;                // these values without a slot

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "core/files.hpp"
 #include "data/contact.hpp"
+#include "data/text.hpp"
 #include "experiment/import_formats.hpp"
 #include "experiment/import_programs.hpp"
 #include "experiment/import_table.hpp"
@@ -75,6 +78,25 @@ void resolve_deviations(const ImportRequest& request, const ImportTable& table,
   }
 }
 
+/// How many impacts of a row did not rebound: a number, or a word for all or none of them.
+std::optional<double> captured_in(const ImportTable& table, std::size_t row) {
+  static const std::set<std::string> all = {"yes",   "y",        "true",    "x",        "stuck",
+                                            "stick", "sticks",   "capture", "ja",       "haftet",
+                                            "oui",   "captured", "adhered", "deposited"};
+  static const std::set<std::string> none = {"no",   "n",       "false",     "nein",     "non",
+                                             "free", "rebound", "rebounded", "rebounds", "bounced"};
+  if (table.lacks(row, "captured")) return std::nullopt;
+  const std::string text = table.text(row, "captured");
+  const std::string word = plain_word(text);
+  if (all.contains(word)) return table.value(row, "events").value_or(1.0);
+  if (none.contains(word)) return 0.0;
+  if (!word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0) {
+    table.fail(row, "captured", fmt::format("{} does not say whether spheres stuck", quote(text)),
+               "a word or their number is known", "write their number, or yes or no");
+  }
+  return table.value(row, "captured");
+}
+
 /// Reads any table whose quantities are those of a dataset.
 /// @param units of the columns of the replaced dataset
 ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& units) {
@@ -108,13 +130,17 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
   ImportedPoints out;
   out.points.reserve(table.size());
   std::map<std::string, bool> sized_series;
+  std::vector<std::string> perhaps_stuck;
   for (std::size_t r = 0; r < table.size(); ++r) {
     ImportedPoint point;
     point.line = table.line(r);
     point.series = table.name(r, "series");
     point.setting = table.text(r, "setting");
     point.launch = table.text(r, "launch");
-    for (const auto& [quantity, name] : numbers) point.value[quantity] = table.value(r, name);
+    for (const auto& [quantity, name] : numbers) {
+      point.value[quantity] =
+          quantity == Quantity::captured ? captured_in(table, r) : table.value(r, name);
+    }
     const bool rebound = (direct && !table.lacks(r, "restitution")) ||
                          (speed && !table.lacks(r, "rebound_velocity")) ||
                          (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
@@ -124,14 +150,22 @@ ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& unit
       if (is_new) own->second = known_diameter(request, point.series, {}).has_value();
       sized = own->second;
     }
-    if (table.lacks(r, "incident_velocity") || table.lacks(r, "incidence_angle") || !sized ||
-        (!rebound && !(point.value[Quantity::captured].value_or(0.0) > 0.0))) {
+    const bool placed =
+        !table.lacks(r, "incident_velocity") && !table.lacks(r, "incidence_angle") && sized;
+    const bool answered = rebound || point.value[Quantity::captured].value_or(0.0) > 0.0;
+    if (!placed || !answered) {
       table.leave_out(r);
+      if (placed && !table.has("captured")) {
+        perhaps_stuck.push_back(fmt::format("line {}", point.line));
+      }
       continue;
     }
     out.points.push_back(std::move(point));
   }
   out.notes = table.notes();
+  if (!perhaps_stuck.empty()) {
+    out.notes.push_back({ImportRemark::rebounds_empty, perhaps_stuck, perhaps_stuck.size()});
+  }
   drop_signs(table, out);
   resolve_deviations(request, table, out.points);
   const std::vector<std::string> unused = table.unused();

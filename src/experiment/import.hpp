@@ -88,6 +88,7 @@ enum class ImportRemark {
   decimal_commas,        ///< the numbers have decimal commas, though none was stated
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a needed cell is empty
+  rebounds_empty,        ///< `names`: of these, only the rebound, and no column states captures
   signed_velocities,     ///< velocities were signed; their magnitudes were taken
   diameter_not_used,     ///< --diameter, though every point has its own
   diameters_from_names,  ///< `names`: the series whose names contain their diameters

@@ -199,6 +199,11 @@ std::string note_sentence(const ImportNote& note) {
       return fmt::format("skipped as a comment or title: {}", names);
     case rows_left_out:
       return fmt::format("left out, because a cell that is needed is empty: {}", names);
+    case rebounds_empty:
+      return fmt::format(
+          "without a rebound: {}. If spheres stuck there, name the column that says so with --map "
+          "captured=COLUMN, or write 0 as the rebound",
+          names);
     case signed_velocities:
       return "the signs of the velocities were taken as directions";
     case first_bounces_missed:

@@ -145,9 +145,15 @@ std::string copied_words(ExportTarget target, const ExportJob& job) {
   const ContactForce& force = job.force;
   if (job.form == ExportForm::lookup) return "";
   if (job.form != ExportForm::approximation) {
-    return fmt::format(
-        "To copy: C_H = {:.5g} s/m, C_A = {:.5g} s/m, f0 = {:.5g} N/m, K = {:.5g} Pa.",
-        force.hertz_damping, force.adhesion_damping, force.adhesion_force, force.stiffness);
+    std::string values;
+    const auto add = [&](const char* name, double value, const char* unit) {
+      if (value != 0.0) values += fmt::format("{} = {:.5g} {}, ", name, value, unit);
+    };
+    add("C_H", force.hertz_damping, "s/m");
+    add("C_A", force.adhesion_damping, "s/m");
+    add("f0", force.adhesion_force, "N/m");
+    add("D", force.dashpot, "N s m^(-3/2)");
+    return fmt::format("To copy: {}K = {:.5g} Pa.", values, force.stiffness);
   }
   const Approximation& stock = *job.stock;
   std::string values;

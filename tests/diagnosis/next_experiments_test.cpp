@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/candidate.hpp"
 #include "estimate/predictor.hpp"
 #include "search_with_exact_laws.hpp"
 #include "support/noisy_case.hpp"
@@ -90,6 +91,41 @@ TEST_F(NextExperiments, WatchACauseWhileItIsTakenAway) {
     pumped = pumped || experiment.condition == Condition::ambient_pressure;
   }
   EXPECT_TRUE(pumped);
+}
+
+// The slowest possible impacts lie below the capture velocity, where no sphere rebounds, however
+// wrong the laws may be.
+TEST(NextExperiment, IsNoImpactInWhichAllSpheresStick) {
+  synthetic::Design design;
+  const double capture = true_capture_velocity(synthetic::truth_of(design), design.diameters[0]);
+  design.velocities.clear();
+  for (const double over : {1.05, 1.3, 1.6, 2.0, 3.0, 5.0, 9.0, 15.0}) {
+    design.velocities.push_back(over * capture);
+  }
+  const FitSpec spec = synthetic::spec();
+  const std::vector<Dataset> data = {synthetic::dataset(design)};
+  const FitResult fitted = fit(make_model(spec, data), gather(data, spec.noise));
+  const SearchBase base = search_base(spec, data, fitted, {});
+  std::vector<CandidateResult> rivals(2);
+  rivals[0].candidate = make_candidate(spec, data, {"velocity_offset"});
+  rivals[1].candidate = make_candidate(spec, data, {});
+  for (CandidateResult& rival : rivals) {
+    rival.refit = refit_candidate(rival.candidate, base.fitted.data, base.fitted.weights,
+                                  rival.candidate.model.initial(), 1);
+    ASSERT_TRUE(rival.refit.usable);
+    rival.refit.law_error = 0.12;
+  }
+  rivals[0].refit.theta.at(3) = -0.08;
+  const auto next = next_experiments(base, {&rivals[0], &rivals[1]});
+  ASSERT_FALSE(next.list.empty());
+  for (const NextExperiment& experiment : next.list) {
+    const ImpactModel& model = rivals[1].candidate.model;
+    EXPECT_GT(predict(model, rivals[1].refit.theta, experiment.dataset, experiment.diameter,
+                      experiment.velocity, false)
+                  .restitution_squared,
+              -0.1)
+        << experiment.velocity;
+  }
 }
 
 TEST(ScatterOfOneEvent, IsThatOfTheNearestPointInLogVelocity) {

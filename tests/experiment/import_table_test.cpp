@@ -424,6 +424,31 @@ TEST(Forms, RowsWithAnEmptyCellAreLeftOutAndNamed) {
   EXPECT_THAT(complaint(nothing), HasSubstr("every row has an empty cell"));
 }
 
+TEST(Forms, WordsSayWhichSpheresStuck) {
+  const Place place;
+  auto request =
+      place.request("V,R,n,remark\n1,-,20,stuck\n2,,20,Yes\n3,1.5,20,\n4,2.5,20,no\n5,3,20,4\n",
+                    ImportFormat::csv);
+  request.map = {"incident_velocity=V:m/s,rebound_velocity=R:m/s,events=n,captured=remark"};
+  const auto result = recoil::import_points(request);
+  ASSERT_EQ(result.dataset.points.size(), 5U);
+  const std::vector<int> captured = {20, 20, 0, 0, 4};
+  for (std::size_t i = 0; i < captured.size(); ++i) {
+    EXPECT_EQ(result.dataset.points[i].captured, captured[i]) << i;
+  }
+  auto unknown = place.request("V,R,remark\n1,-,perhaps\n3,1.5,\n", ImportFormat::csv);
+  unknown.map = {"incident_velocity=V:m/s,rebound_velocity=R:m/s,captured=remark"};
+  unknown.into = place.folder() / "other";
+  EXPECT_THAT(complaint(unknown), HasSubstr("input.csv:2:5: 'perhaps'"));
+  // Without the column, the empty rebound of a row that has the rest is told.
+  unknown.map = {"incident_velocity=V:m/s,rebound_velocity=R:m/s"};
+  const auto left = recoil::import_points(unknown);
+  const auto told = std::ranges::find(left.notes, recoil::ImportRemark::rebounds_empty,
+                                      &recoil::ImportNote::remark);
+  ASSERT_NE(told, left.notes.end());
+  EXPECT_EQ(told->names, std::vector<std::string>{"line 2"});
+}
+
 TEST(Forms, UnitsFactorsConstantsAndSigns) {
   const Place place;
   auto request = place.request("v,r,T\n-70,30,20\n-10,5,\n", ImportFormat::csv);
