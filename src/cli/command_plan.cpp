@@ -122,6 +122,16 @@ std::vector<fs::path> forms_of(const fs::path& folder, const std::vector<Dataset
   return forms;
 }
 
+/// That a fit of the points would take another law of loss than the plan assumes; empty if not.
+std::string other_loss_words(const FitSpec& spec, const std::vector<Dataset>& datasets) {
+  const auto measured = [](const Dataset& dataset) { return !dataset.points.empty(); };
+  if (!std::ranges::all_of(datasets, measured)) return "";
+  const std::string loss = choose_loss(spec, datasets).spec.loss;
+  if (loss.empty() || loss == hunt_crossley) return "";
+  return fmt::format(
+      " (a fit of the points chooses the loss {}: fit them, and plan with --parameters)", loss);
+}
+
 void run_plan(const GivenOptions& given) {
   const fs::path out = given.text("--out");
   if (!out.empty()) require_writable_folder(out);
@@ -144,7 +154,8 @@ void run_plan(const GivenOptions& given) {
   const std::vector<Dataset> planned = datasets_to_plan(datasets, options.diameters);
   ImpactModel model = make_model(spec, planned);
   const std::string to_a_factor = fmt::format("to a factor of {:g}", guess_factor);
-  std::string origin = "the initial values of the fit file, " + to_a_factor;
+  std::string origin = "the initial values of the fit file, " + to_a_factor +
+                       (fitted ? "" : other_loss_words(spec, datasets));
   if (fitted) {
     take_fitted_values(model, datasets, *fitted, parameters);
     origin = origin_words(*fitted, parameters) + ", with the errors of the fit";
