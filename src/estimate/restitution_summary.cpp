@@ -569,6 +569,7 @@ struct Curve {
   double square = 0.0;  ///< weighted sum of squares
   int dof = 0;
   double expected = 0.0, error = 0.0;  ///< of e at the mean that was left out
+  double slope = 0.0;                  ///< d ln e / d ln V there
 };
 
 /// q of plastic contacts (-1/2: Wu, Li & Thornton 2003, Int. J. Impact Eng. 28, 929; -1/4: Johnson
@@ -605,19 +606,22 @@ Curve curve_through(std::span<const BatchMean> means, std::size_t skipped, doubl
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(X);
   const Eigen::MatrixXd inverse = solver.pseudoInverse();
   Curve curve;
-  curve.square = (y - X * (inverse * y)).squaredNorm();
+  const Eigen::VectorXd coefficients = inverse * y;
+  curve.square = (y - X * coefficients).squaredNorm();
   curve.dof = static_cast<int>(n - solver.rank());
   if (skipped == none) return curve;
-  const Eigen::VectorXd here = inverse.transpose() * row_of(means[skipped].reading.velocity);
-  curve.expected = here.dot(y);
-  curve.error = here.norm();
+  const double velocity = means[skipped].reading.velocity;
+  const Eigen::VectorXd here = row_of(velocity);
+  curve.expected = here.dot(coefficients);
+  curve.error = (inverse.transpose() * here).norm();
+  curve.slope = coefficients(1) * std::pow(velocity / middle, exponent) / curve.expected;
   return curve;
 }
 
 /// A mean beside the curves through all others.
 struct Separation {
   double square = std::numeric_limits<double>::infinity();  ///< least sum of squares of the others
-  double expected = 0.0;                                    ///< e by the curve with it
+  double expected = 0.0, slope = 0.0;                       ///< by the curve with it
   double p_value = 1.0;                                     ///< largest of the curves that they fit
 };
 
@@ -631,6 +635,7 @@ Separation separation_of(std::span<const BatchMean> means, std::size_t k, double
     if (curve.square < found.square) {
       found.square = curve.square;
       found.expected = curve.expected;
+      found.slope = curve.slope;
     }
     if (gsl_cdf_chisq_Q(curve.square, curve.dof) < lack_of_fit_level) continue;
     const double apart = std::abs(own.e - curve.expected) / std::hypot(own.sd, curve.error);
@@ -709,8 +714,10 @@ std::optional<OutlyingBatch> outlying_in(std::span<const BatchMean> means, doubl
   found.value = best->expected;
   found.difference = own.e - best->expected;
   found.p_value = best->p_value;
-  // e = V_rebound / V, and V was computed from the stated height.
-  found.height_error = std::pow(own.e / best->expected, 2) - 1.0;
+  // V_rebound = e(V) V was measured, and V was computed from the stated height.
+  constexpr double least_rise = 0.25;  // of ln V_rebound with ln V; less tells nothing of V
+  const double rise = std::max(least_rise, 1.0 + best->slope);
+  found.height_error = std::pow(own.e / best->expected, 2.0 / rise) - 1.0;
   if (!launch) found.height = height_of(found.name, own.velocity);
   if (found.height) {
     // d ln h / d ln V^2 = (exp x - 1) / x with x = 2 g h / V_t^2, by drag proportional to V^2.

@@ -41,7 +41,8 @@ struct OutlyingBatch {
   /// Of drop heights: the height that the name of the setting states [m].
   std::optional<double> height;
   /// Of drop heights: (true - stated) / stated height that would explain the difference, to first
-  /// order [1]. Without `height`, and with drag, it is that of V^2.
+  /// order, as e by the curve falls or rises with V [1]. Without `height` it is that of V^2, which
+  /// differs with drag.
   double height_error = 0.0;
 };
 
