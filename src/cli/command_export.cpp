@@ -63,7 +63,7 @@ Fitted fit_points(FitInputs inputs, const GivenOptions& given, bool bands) {
   if (verdict == ModelVerdict::does_not_fit || verdict == ModelVerdict::fits_within_law_error) {
     out.source.misfit =
         plain_text(verdict_sentence(analysis.fitted) + " " +
-                   join(restitution_sentences(analysis.datasets, analysis.fitted.model), " "));
+                   join(restitution_sentences(analysis.datasets, analysis.fitted), " "));
   }
   out.datasets = std::move(analysis.datasets);
   return out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,8 +15,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/numerics.hpp"
 #include "core/statistics.hpp"
+#include "core/units.hpp"
 #include "estimate/instant_errors.hpp"
 #include "estimate/reweighting.hpp"
 
@@ -543,9 +546,13 @@ std::vector<BatchMean> batch_means(const std::vector<Readings>& batches,
       sum.e += r.e / n;
       of_setting += r.e * r.point->setting_velocity_sd.value_or(0.0) / r.velocity / n;
     }
-    for (const Reading& r : readings) within += (r.e - sum.e) * (r.e - sum.e);
+    double square = 0.0;
+    for (const Reading& r : readings) square += (r.e - sum.e) * (r.e - sum.e);
+    within += square;
     freedom += n - 1.0;
     sum.sd = std::sqrt(variance_of_sum(readings)) / n;
+    // Drops from a small height may scatter more than others, which only stated errors tell.
+    if (!(sum.sd > 0.0)) sum.sd = std::sqrt(square / (n - 1.0) / n);
     means.push_back({sum, &groups[sum.series], static_cast<int>(readings.size())});
     shared.push_back(of_setting);
   }
@@ -557,47 +564,186 @@ std::vector<BatchMean> batch_means(const std::vector<Readings>& batches,
   return means;
 }
 
-/// The batch that differs most from the line through all others, if these lie on it.
-std::optional<OutlyingBatch> outlying(const std::vector<BatchMean>& means, std::size_t series,
-                                      bool launch) {
+/// e = a + b V^q, for q = 0 with ln V, through means.
+struct Curve {
+  double square = 0.0;  ///< weighted sum of squares
+  int dof = 0;
+  double expected = 0.0, error = 0.0;  ///< of e at the mean that was left out
+  double slope = 0.0;                  ///< d ln e / d ln V there
+};
+
+/// q of plastic contacts (-1/2: Wu, Li & Thornton 2003, Int. J. Impact Eng. 28, 929; -1/4: Johnson
+/// 1985, Contact Mechanics, 11.5), of spheres with viscosity (1/5: Kuwabara & Kono 1987, Jpn. J.
+/// Appl. Phys. 26, 1230), and of the damping of Hunt & Crossley (1: 1975, J. Appl. Mech. 42, 440).
+constexpr std::array exponents = {-0.5, -0.25, 0.0, 0.2, 1.0};
+
+/// @param skipped index; `none`: all means count
+/// @param kink the velocity at which b changes [m/s]
+Curve curve_through(std::span<const BatchMean> means, std::size_t skipped, double exponent,
+                    std::optional<double> kink = std::nullopt) {
+  const double middle = means[means.size() / 2].reading.velocity;
+  const auto abscissa = [&](double velocity) {
+    const double x = std::log(velocity / middle);
+    return exponent == 0.0 ? x : std::expm1(exponent * x) / exponent;
+  };
+  const auto row_of = [&](double velocity) {
+    Eigen::VectorXd row(kink ? 3 : 2);
+    row(0) = 1.0;
+    row(1) = abscissa(velocity);
+    if (kink) row(2) = std::max(0.0, row(1) - abscissa(*kink));
+    return row;
+  };
+  const auto n = static_cast<Eigen::Index>(means.size() - (skipped == none ? 0 : 1));
+  Eigen::MatrixXd X(n, kink ? 3 : 2);
+  Eigen::VectorXd y(n);
+  Eigen::Index i = 0;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    if (k == skipped) continue;
+    const Reading& mean = means[k].reading;
+    X.row(i) = row_of(mean.velocity) / mean.sd;
+    y(i++) = mean.e / mean.sd;
+  }
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(X);
+  const Eigen::MatrixXd inverse = solver.pseudoInverse();
+  Curve curve;
+  const Eigen::VectorXd coefficients = inverse * y;
+  curve.square = (y - X * coefficients).squaredNorm();
+  curve.dof = static_cast<int>(n - solver.rank());
+  if (skipped == none) return curve;
+  const double velocity = means[skipped].reading.velocity;
+  const Eigen::VectorXd here = row_of(velocity);
+  curve.expected = here.dot(coefficients);
+  curve.error = (inverse.transpose() * here).norm();
+  curve.slope = coefficients(1) * std::pow(velocity / middle, exponent) / curve.expected;
+  return curve;
+}
+
+/// A mean beside the curves through all others.
+struct Separation {
+  double square = std::numeric_limits<double>::infinity();  ///< least sum of squares of the others
+  double expected = 0.0, slope = 0.0;                       ///< by the curve with it
+  double p_value = 1.0;                                     ///< largest of the curves that they fit
+};
+
+Separation separation_of(std::span<const BatchMean> means, std::size_t k, double tested) {
+  const Reading& own = means[k].reading;
+  Separation found;
+  std::optional<double> largest;
+  for (const double exponent : exponents) {
+    const Curve curve = curve_through(means, k, exponent);
+    if (curve.dof < 2) continue;
+    if (curve.square < found.square) {
+      found.square = curve.square;
+      found.expected = curve.expected;
+      found.slope = curve.slope;
+    }
+    if (gsl_cdf_chisq_Q(curve.square, curve.dof) < lack_of_fit_level) continue;
+    const double apart = std::abs(own.e - curve.expected) / std::hypot(own.sd, curve.error);
+    largest = std::max(largest.value_or(0.0), 2.0 * gsl_cdf_ugaussian_Q(apart) * tested);
+  }
+  found.p_value = std::min(1.0, largest.value_or(1.0));
+  return found;
+}
+
+/// Least sum of squares of curves with a kink, at a mean or halfway to the next, through all.
+double square_with_kink(std::span<const BatchMean> means) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k + 1 < means.size(); ++k) {
+    const double here = means[k].reading.velocity;
+    for (const double kink : {here, std::sqrt(here * means[k + 1].reading.velocity)}) {
+      for (const double exponent : exponents) {
+        least = std::min(least, curve_through(means, none, exponent, kink).square);
+      }
+    }
+  }
+  return least;
+}
+
+/// Is the velocity of a mean far from those of all others?
+bool beyond_others(std::span<const BatchMean> means, std::size_t k) {
+  constexpr double margin = 1.1;
+  const double own = means[k].reading.velocity;
+  const double lower = means[k == 0 ? 1 : 0].reading.velocity;
+  const double upper = means[means.size() - (k + 1 == means.size() ? 2 : 1)].reading.velocity;
+  return own * margin < lower || own > upper * margin;
+}
+
+/// The height in the name that `import` gives to a setting, "steel from 450 mm" [m]; nullopt unless
+/// a fall from it, with some drag of air, can have this velocity.
+std::optional<double> height_of(std::string_view setting, double velocity) {
+  constexpr std::string_view before = " from ", after = " mm";
+  // Shares of the energy that are left; gravity may differ by 2 % from the standard.
+  constexpr double largest_share = 1.02, least_share = 0.25;
+  const std::size_t start = setting.rfind(before);
+  if (start == std::string_view::npos || !setting.ends_with(after)) return std::nullopt;
+  setting.remove_suffix(after.size());
+  const std::optional<double> number = parse_number(setting.substr(start + before.size()));
+  if (!number) return std::nullopt;
+  const double height = *number * units::mm;
+  const double energy = 2.0 * standard_gravity * height;
+  const bool fell =
+      velocity * velocity < largest_share * energy && velocity * velocity > least_share * energy;
+  return fell ? std::optional(height) : std::nullopt;
+}
+
+/// The mean that lies apart from the curve through all others of its series.
+/// @param means of one series, by V
+/// @param tested number of means of all series
+std::optional<OutlyingBatch> outlying_in(std::span<const BatchMean> means, double tested,
+                                         bool launch) {
   constexpr double level = 0.01;
-  constexpr std::size_t most = 200;  // every one costs a line through the others
+  const double likelier = -2.0 * std::log(level);  // by the likelihood ratio
+  std::vector<Separation> all;
+  for (std::size_t k = 0; k < means.size(); ++k) all.push_back(separation_of(means, k, tested));
+  const auto best = std::ranges::min_element(all, {}, &Separation::p_value);
+  if (best == all.end() || best->p_value > level) return std::nullopt;
+  const auto k = static_cast<std::size_t>(best - all.begin());
+  if (beyond_others(means, k)) return std::nullopt;
+  for (auto other = all.begin(); other != all.end(); ++other) {
+    if (other != best && other->square < best->square + likelier) return std::nullopt;
+  }
+  if (!launch && square_with_kink(means) < best->square + likelier) return std::nullopt;
+  const Reading& own = means[k].reading;
+  OutlyingBatch found;
+  found.dataset = means[k].group->dataset;
+  found.series = means[k].group->series;
+  found.launch = launch;
+  found.name = launch ? own.point->launch : own.point->setting;
+  found.points = means[k].points;
+  found.velocity = own.velocity;
+  found.value = best->expected;
+  found.difference = own.e - best->expected;
+  found.p_value = best->p_value;
+  // V_rebound = e(V) V was measured, and V was computed from the stated height.
+  constexpr double least_rise = 0.25;  // of ln V_rebound with ln V; less tells nothing of V
+  const double rise = std::max(least_rise, 1.0 + best->slope);
+  found.height_error = std::pow(own.e / best->expected, 2.0 / rise) - 1.0;
+  if (!launch) found.height = height_of(found.name, own.velocity);
+  if (found.height) {
+    // d ln h / d ln V^2 = (exp x - 1) / x with x = 2 g h / V_t^2, by drag proportional to V^2.
+    // It is 1 + x^2 / 12 times 2 g h / V^2 = x / (1 - exp(-x)), to the fourth order in x.
+    found.height_error *= 2.0 * standard_gravity * *found.height / (own.velocity * own.velocity);
+  }
+  return found;
+}
+
+/// The mean of all series that lies apart from the others.
+std::optional<OutlyingBatch> outlying(std::vector<BatchMean> means, bool launch) {
+  constexpr std::size_t most = 200;  // every one costs curves through the others
+  std::erase_if(means, [](const BatchMean& mean) { return !(mean.reading.sd > 0.0); });
   std::optional<OutlyingBatch> found;
   if (means.size() > most) return found;
-  std::vector<std::size_t> count(series, 0);
-  for (const BatchMean& mean : means) ++count[mean.reading.series];
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    const Reading& own = means[k].reading;
-    if (count[own.series] < 2 || !(own.sd > 0.0)) continue;
-    std::vector<Reading> others;
-    std::map<std::size_t, std::size_t> number;  // of the series that the others have
-    for (std::size_t j = 0; j < means.size(); ++j) {
-      if (j == k) continue;
-      others.push_back(means[j].reading);
-      others.back().linked = {};
-      others.back().launch = none;
-      others.back().series = number.try_emplace(others.back().series, number.size()).first->second;
-    }
-    const Line line(others, number.size());
-    if (line.dof() < 1 || !line.has_errors()) continue;
-    if (gsl_cdf_chisq_Q(line.square(), line.dof()) < lack_of_fit_level) continue;
-    Eigen::VectorXd here = Eigen::VectorXd::Zero(line.columns());
-    here(static_cast<Eigen::Index>(number.at(own.series))) = 1.0;
-    if (line.sloped()) here(here.size() - 1) = std::log10(own.velocity);
-    const double expected = line.value(here);
-    const double error = std::hypot(own.sd, line.error(here));
-    const double p = std::min(1.0, 2.0 * gsl_cdf_ugaussian_Q(std::abs(own.e - expected) / error) *
-                                       static_cast<double>(means.size()));
-    if (p > level || (found && p >= found->p_value)) continue;
-    found = {means[k].group->dataset,
-             means[k].group->series,
-             launch,
-             launch ? own.point->launch : own.point->setting,
-             means[k].points,
-             own.velocity,
-             expected,
-             own.e - expected,
-             p};
+  std::ranges::stable_sort(means, {}, [](const BatchMean& mean) {
+    return std::pair(mean.reading.series, mean.reading.velocity);
+  });
+  const auto tested = static_cast<double>(means.size());
+  for (auto first = means.begin(); first != means.end();) {
+    const auto last = std::find_if(first, means.end(), [&](const BatchMean& mean) {
+      return mean.reading.series != first->reading.series;
+    });
+    const std::optional<OutlyingBatch> own = outlying_in({first, last}, tested, launch);
+    if (own && (!found || own->p_value < found->p_value)) found = own;
+    first = last;
   }
   return found;
 }
@@ -658,8 +804,8 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets, b
   std::ranges::stable_sort(launched, {}, &Reading::launch);
   const std::vector<Readings> of_launches =
       runs_of(launched, [](const Reading& r) { return r.launch; });
-  summary.outlier = outlying(batch_means(of_settings, groups), series, false);
-  if (!summary.outlier) summary.outlier = outlying(batch_means(of_launches, groups), series, true);
+  summary.outlier = outlying(batch_means(of_settings, groups), false);
+  if (!summary.outlier) summary.outlier = outlying(batch_means(of_launches, groups), true);
   const bool scattered = of_launches.empty() && places_scatter(of_settings, Line(readings, series));
   const std::vector<Reading> used = scattered ? means_of_places(of_settings) : readings;
   const Line line(used, series);

@@ -38,6 +38,12 @@ struct OutlyingBatch {
   double value = 0.0;       ///< e expected from the others [1]
   double difference = 0.0;  ///< mean e minus `value` [1]
   double p_value = 1.0;     ///< of the largest of all such differences
+  /// Of drop heights: the height that the name of the setting states [m].
+  std::optional<double> height;
+  /// Of drop heights: (true - stated) / stated height that would explain the difference, to first
+  /// order, as e by the curve falls or rises with V [1]. Without `height` it is that of V^2, which
+  /// differs with drag.
+  double height_error = 0.0;
 };
 
 /// The rebounds of one size: mean e at the slowest setting, at the fastest, and where it is
@@ -87,10 +93,15 @@ struct LineScatter {
 ///   share instants are weighted with their covariance; where they scatter more than stated, an
 ///   independent error is added to all. From five launches on, the scatter of `velocity` is that
 ///   between launches, as for a mean.
-/// - `outlier` is the setting, or else the launch, that differs most from the line through the
-/// means
-///   of all others, if these agree (5 %) and it differs (1 %, times the number of means). The error
-///   of a mean is the larger of the stated one and that from the scatter within all of them.
+/// - `outlier` is the setting, or else the launch, of a series that differs most from
+///   e = a + b V^q through all others of its series, if these agree (5 %), and if it differs (1 %,
+///   times the number of means) with every q for which they agree: -1/2, -1/4, 0 (ln V), 1/5,
+///   and 1. At least two degrees of freedom are left, so that five settings are needed. It is not
+///   named if its V is farther than a factor of 1.1 from the others, or if something else is more
+///   than 1/100 as likely: that another one is apart, or, for settings, that e has a kink (a yield
+///   velocity). A kink explains the outermost setting, which is therefore not named. The error of a
+///   mean is the larger of the stated one and that from the scatter within all of them; without
+///   stated ones also that from its own scatter.
 /// - `bend` is the p-value of b = c = 0 in e = a_series + b log10 V + c (log10 V)^2, by the same
 ///   tests: near capture e rises and then falls, which a slope cannot show.
 /// - `series` is the largest difference between two series of one size at equal velocity, and the

@@ -223,7 +223,7 @@ Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
   answer.blocks = {Paragraph{headline(d), true},
                    Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
-                   Paragraph{join(restitution_sentences(d.datasets, d.base.model), " ")}};
+                   Paragraph{join(restitution_sentences(d.datasets, d.base), " ")}};
   append(answer.blocks, data_banners(d.datasets));
   return answer;
 }

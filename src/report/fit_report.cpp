@@ -354,7 +354,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                                  loss_words(a),         odd_point_words(a)};
   std::erase(leads, Sentence());
   answer.blocks = {Paragraph{join(leads, " "), true},
-                   Paragraph{join(restitution_sentences(a.datasets, a.fitted.model), " ")},
+                   Paragraph{join(restitution_sentences(a.datasets, a.fitted), " ")},
                    Paragraph{join(friction_sentences(a.datasets), " ")}};
   append(answer.blocks, data_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "core/units.hpp"
 #include "data/text.hpp"
@@ -123,37 +124,54 @@ std::string count_words(const RestitutionMean& mean) {
                            : fmt::format(" ({})", points);
 }
 
-/// The setting or launch that lies apart, and for a drop height the height that would mend it:
-/// e = V_rebound / V with V proportional to the root of the height.
+/// The setting or launch that lies apart, and for a drop height the error that would explain it.
 Sentence outlier_words(const OutlyingBatch& batch, const std::vector<Dataset>& datasets) {
   const Dataset& dataset = datasets[batch.dataset];
   const std::string points = counted(batch.points, "point");
-  const std::string where = datasets.size() > 1 ? " of " + dataset.id : "";
+  const std::string where =
+      (dataset.series.size() > 1 ? " of " + dataset.series[batch.series] : std::string()) +
+      (datasets.size() > 1 ? " of " + dataset.id : std::string());
   const Sentence apart = say("lie together {:.2g} {} the others ({})", std::abs(batch.difference),
                              batch.difference > 0.0 ? "above" : "below", p_words(batch.p_value));
   if (batch.launch) {
     return say("The {} of launch {}{} {}: look there.", points, batch.name, where, apart);
   }
-  if (dataset.system.method != Method::drop_heights) {
-    return say("The {} at {} m/s{} {}: look there.", points, number(batch.velocity, 3), where,
-               apart);
+  const double error = std::abs(batch.height_error);
+  if (dataset.system.method == Method::drop_heights && batch.height) {
+    return say("The {} from {} cm{} {}: that height is wrong by about {} cm, or look there.",
+               points, number(*batch.height / units::cm, 6), where, apart,
+               number(error * *batch.height / units::cm, 1));
   }
-  const double height = 0.5 * batch.velocity * batch.velocity / standard_gravity;
-  const double error = std::pow((batch.value + batch.difference) / batch.value, 2) - 1.0;
-  return say("The {} from {} cm{} {}: that height is wrong by about {} cm, or look there.", points,
-             number(height / units::cm, 3), where, apart,
-             number(std::abs(error) * height / units::cm, 1));
+  const Sentence there =
+      say("The {} at {} m/s{} {}: ", points, number(batch.velocity, 3), where, apart);
+  if (dataset.system.method != Method::drop_heights) return there + say("look there.");
+  return there +
+         say("the drop height is wrong by about {} %, or look there.", number(100.0 * error, 1));
 }
 
-}  // namespace
-
-std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
-                                            const ImpactModel& model) {
-  return restitution_sentences(datasets, adheres_anywhere(model));
+/// Does the fitted law follow the points that lie apart: does it leave less than half of their
+/// difference?
+bool explains(const FitResult& fitted, const OutlyingBatch& batch,
+              const std::vector<Dataset>& datasets) {
+  std::set<int> lines;
+  for (const ImpactPoint& point : datasets[batch.dataset].points) {
+    const bool named = (batch.launch ? point.launch : point.setting) == batch.name;
+    const double away = std::abs(point.incident_velocity - batch.velocity);
+    const bool there = !batch.name.empty() || away < 1e-9 * batch.velocity;
+    if (point.series == batch.series && named && there) lines.insert(point.line);
+  }
+  double rest = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
+    if (point.dataset != batch.dataset || point.censored || !lines.contains(point.line)) continue;
+    rest += point.restitution - fitted.prediction[i];
+    count += 1.0;
+  }
+  return count > 0.0 && std::abs(rest / count) < 0.5 * std::abs(batch.difference);
 }
 
-std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion) {
-  const RestitutionSummary summary = summarise_restitution(datasets, adhesion);
+std::vector<Sentence> sentences_of(const RestitutionSummary& summary,
+                                   const std::vector<Dataset>& datasets, bool adhesion) {
   if (adhesion && !summary.ranges.empty()) return {ranges_words(summary.ranges, datasets)};
   std::vector<RestitutionMean> ranked;
   for (const RestitutionMean& mean : summary.means) {
@@ -206,6 +224,20 @@ std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets
     }
   }
   return sentences;
+}
+
+}  // namespace
+
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
+                                            const FitResult& fitted) {
+  const bool adhesion = adheres_anywhere(fitted.model);
+  RestitutionSummary summary = summarise_restitution(datasets, adhesion);
+  if (summary.outlier && explains(fitted, *summary.outlier, datasets)) summary.outlier.reset();
+  return sentences_of(summary, datasets, adhesion);
+}
+
+std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion) {
+  return sentences_of(summarise_restitution(datasets, adhesion), datasets, adhesion);
 }
 
 std::vector<Sentence> friction_sentences(const std::vector<Dataset>& datasets) {

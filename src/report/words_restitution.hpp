@@ -4,7 +4,7 @@
 
 #include "data/dataset.hpp"
 #include "document/document.hpp"
-#include "estimate/model.hpp"
+#include "estimate/fit.hpp"
 
 /// The mean restitution of every series, in words and as a table.
 namespace recoil {
@@ -12,9 +12,9 @@ namespace recoil {
 /// Without adhesion: the mean e of every series, the dependence of e on V, and the difference
 /// between series of one size. With adhesion: e at the slowest and the fastest impacts of every
 /// size. Empty if nothing rebounded.
-/// @param model that is fitted to these points
+/// @param fitted to these points. A setting or launch that its law follows is not apart.
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets,
-                                            const ImpactModel& model);
+                                            const FitResult& fitted);
 /// @param adhesion does the contact have adhesion?
 std::vector<Sentence> restitution_sentences(const std::vector<Dataset>& datasets, bool adhesion);
 

@@ -37,14 +37,15 @@ Dataset dataset_of(const std::vector<Row>& rows) {
 }
 
 std::string text_of(const Dataset& data, bool adhesion) {
-  ImpactModel model = sample::four_diameters().fitted.model;
+  FitResult fitted = sample::four_diameters().fitted;
+  ImpactModel& model = fitted.model;
   EXPECT_TRUE(adheres_anywhere(model));
   if (!adhesion) {
     model.slots[model.slot_adhesion.front()].free = false;
     model.contacts.front().adhesion_force = 0.0;
     EXPECT_FALSE(adheres_anywhere(model));
   }
-  return plain_text(join(restitution_sentences({data}, model), " "));
+  return plain_text(join(restitution_sentences({data}, fitted), " "));
 }
 
 TEST(FrictionWords, SayTheCoefficientOrItsLimit) {
@@ -87,6 +88,35 @@ TEST(RestitutionWords, SayWhatWasMeasuredWithAdhesion) {
   data.points.back().restitution = 0.8279;
   EXPECT_THAT(text_of(data, true),
               HasSubstr("to 0.87 at 9.9 m/s and falls to 0.83 at 27 m/s (2 um)"));
+}
+
+// Six settings with e = 0.8, and one 0.05 below. A law that follows it too leaves nothing to say.
+TEST(RestitutionWords, ASettingThatTheFittedLawFollowsIsNotApart) {
+  std::vector<Row> rows;
+  FitResult fitted = sample::four_diameters().fitted;
+  for (ParameterSlot& slot : fitted.model.slots) slot.free = false;
+  fitted.model.contacts.front().adhesion_force = 0.0;
+  ASSERT_FALSE(adheres_anywhere(fitted.model));
+  fitted.data.points.clear();
+  for (int k = 0; k < 7; ++k) {
+    for (const double off : {-0.002, 0.002}) {
+      rows.push_back({0, 30.0, 1.0 + 0.2 * k, (k == 3 ? 0.75 : 0.8) + off});
+    }
+  }
+  Dataset data = dataset_of(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ImpactPoint& point = data.points[i];
+    point.line = static_cast<int>(i) + 2;
+    point.restitution_sd = 0.002;
+    Observation& seen = fitted.data.points.emplace_back();
+    seen.line = point.line;
+    seen.restitution = point.restitution;
+  }
+  fitted.prediction.assign(rows.size(), 0.8);
+  const std::size_t all = restitution_sentences({data}, false).size();
+  EXPECT_EQ(restitution_sentences({data}, fitted).size(), all);
+  for (const std::size_t i : {6U, 7U}) fitted.prediction[i] = 0.76;
+  EXPECT_EQ(restitution_sentences({data}, fitted).size(), all - 1);
 }
 
 TEST(RestitutionWords, ShowTheSmallestAndTheLargestOfManySizes) {
