@@ -57,9 +57,9 @@ TEST(Words, OfTheRecommendedInterval) {
   set.student = true;
   EXPECT_THAT(recommended_words(set), testing::HasSubstr("Student"));
   set.recommended = IntervalKind::wald;
-  set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
+  set[IntervalKind::profile] = no_interval(NoInterval::no_lower_end);
   EXPECT_EQ(recommended_words(set),
-            "there is no profile: " + missing_words(no_interval(NoInterval::refit_failed)));
+            "there is no profile: " + missing_words(no_interval(NoInterval::no_lower_end)));
 }
 
 TEST(Words, WhyNoDiameterIsHeldOut) {
