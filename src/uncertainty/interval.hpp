@@ -116,6 +116,12 @@ inline Interval no_interval(NoInterval why) {
   return interval;
 }
 
+/// Was an end of this profile interval not found?
+inline bool lacks_ends(const Interval& profile) {
+  return profile.missing == NoInterval::no_ends || profile.missing == NoInterval::no_lower_end ||
+         profile.missing == NoInterval::no_upper_end;
+}
+
 /// `interval`, or none if one of its ends is an estimate that is at neither bound.
 inline Interval with_both_arms(Interval interval, double estimate, double lower, double upper) {
   const bool missing = interval.lower == estimate || interval.upper == estimate;

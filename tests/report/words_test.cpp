@@ -62,6 +62,18 @@ TEST(Words, OfTheRecommendedInterval) {
             "there is no profile: " + missing_words(no_interval(NoInterval::no_lower_end)));
 }
 
+TEST(Words, WarnOfAProfileWithoutAnEnd) {
+  Analysis analysis = sample::four_diameters();
+  IntervalSet& set = analysis.uncertainty.intervals.front();
+  const std::size_t before = all_warnings(analysis).size();
+  for (const NoInterval why : {NoInterval::no_ends, NoInterval::no_lower_end,
+                               NoInterval::no_upper_end, NoInterval::noise_unknown}) {
+    set[IntervalKind::profile] = no_interval(why);
+    set.recommended = IntervalKind::wald;
+    EXPECT_EQ(all_warnings(analysis).size(), before + (why != NoInterval::noise_unknown ? 1 : 0));
+  }
+}
+
 TEST(Words, WhyNoDiameterIsHeldOut) {
   TwoPointComparison comparison;
   EXPECT_EQ(held_out_words(comparison), "");
