@@ -76,7 +76,7 @@ Interval cut_by_rows(Interval interval, const FitResult& fitted, const CaptureEs
     const auto cut = [&](double& end) {
       const double ln = std::log(end);
       if (!(excess(ln) > 0.0)) return;
-      const double root = find_root(excess, std::min(ln, middle), std::max(ln, middle), 1e-6);
+      const double root = find_root(excess, std::min(ln, middle), std::max(ln, middle), 1e-9);
       if (!std::isnan(root)) end = std::exp(root);
     };
     if (rebounds) cut(*interval.upper);

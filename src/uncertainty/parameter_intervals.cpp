@@ -17,6 +17,11 @@ namespace recoil {
 
 namespace {
 
+Interval checked(const FitResult& fitted, std::size_t j, Interval interval) {
+  const ParameterSlot& slot = fitted.model.slots[j];
+  return with_both_arms(std::move(interval), fitted.theta[j], slot.lower, slot.upper);
+}
+
 /// Percentile, BCa and studentized intervals of slot j; no intervals if too many refits failed.
 void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::size_t j,
                    const std::vector<std::vector<double>>& delete_one, double level,
@@ -31,16 +36,15 @@ void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::si
   const ParameterSlot& slot = fitted.model.slots[j];
   const std::vector<double> replicates = finite_column(boot.theta, j);
   const std::vector<double> without_one = finite_column(delete_one, j);
-  const auto checked = [&](Interval interval) {
-    return with_both_arms(std::move(interval), fitted.theta[j], slot.lower, slot.upper);
-  };
-  set[IntervalKind::percentile] = checked(percentile_interval(replicates, level));
-  set[IntervalKind::bca] = checked(bca_interval(replicates, fitted.theta[j], without_one, level));
+  set[IntervalKind::percentile] = checked(fitted, j, percentile_interval(replicates, level));
+  set[IntervalKind::bca] =
+      checked(fitted, j, bca_interval(replicates, fitted.theta[j], without_one, level));
   if (!replicates.empty() && !without_one.empty()) {
     set.bca_constants = bca_constants(replicates, fitted.theta[j], without_one);
   }
   set[IntervalKind::studentized] =
-      checked(studentized_interval(replicates, finite_column(boot.std_error, j), fitted.theta[j],
+      checked(fitted, j,
+              studentized_interval(replicates, finite_column(boot.std_error, j), fitted.theta[j],
                                    boot.reference_error[j], level, slot.lower, slot.upper));
   set.bound_share = bound_share(boot, slot, j);
 }
@@ -137,8 +141,8 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<FitAlternative>&
       }
       return;
     }
-    set[IntervalKind::wald] = averaged_wald(alternatives, j, level);
-    set[IntervalKind::profile] = averaged_profile(alternatives, j, level);
+    set[IntervalKind::wald] = checked(fitted, j, averaged_wald(alternatives, j, level));
+    set[IntervalKind::profile] = checked(fitted, j, averaged_profile(alternatives, j, level));
   });
   return sets;
 }
