@@ -9,7 +9,7 @@
 
 #include "uncertainty/interval.hpp"
 
-namespace recoil {
+namespace recoil::profile_end {
 namespace {
 
 constexpr double estimate = 1.0;
@@ -136,4 +136,4 @@ TEST(Arms, AnEndIsNeverAnEstimateBetweenTheBounds) {
 }
 
 }  // namespace
-}  // namespace recoil
+}  // namespace recoil::profile_end
