@@ -429,9 +429,14 @@ std::vector<Sentence> all_warnings(const Analysis& a) {
   Sentences warnings = fit_warnings(a.fitted);
   add_new(warnings, uncertainty_warnings(a.uncertainty, a.fitted.data));
   for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
-    const Interval& interval = recommended_interval(a.uncertainty.intervals[s]);
-    if (!interval.note || !short_note(interval.note->caution).empty()) continue;
+    const IntervalSet& set = a.uncertainty.intervals[s];
+    const Interval& interval = recommended_interval(set);
     const Sentence name = symbol(a.fitted.model.slots[s].label());
+    if (interval.available() && lacks_ends(set[IntervalKind::profile])) {
+      warnings.push_back(say("{} has a {} interval, because {}", name, words_of(set.recommended),
+                             recommended_words(set)));
+    }
+    if (!interval.note || !short_note(interval.note->caution).empty()) continue;
     add_new(warnings, {say("{}: {}", name, note_words(interval, name))});
   }
   for (const Dataset& dataset : a.datasets) {

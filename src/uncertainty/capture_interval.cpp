@@ -172,7 +172,8 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
       percentile = no_interval(NoInterval::refits_failed);
     } else {
       const auto cut = [&](const Interval& interval) {
-        return cut_by_rows(interval, fitted, capture, level);
+        return cut_by_rows(with_both_arms(interval, capture.value, 0.0, INFINITY), fitted, capture,
+                           level);
       };
       percentile = cut(percentile_interval(finite_column(replicates.capture_velocity, k), level));
       studentized = cut(studentized_capture(replicates, k, capture.value, level));

@@ -69,13 +69,14 @@ Interval cut_by_rows(Interval interval, const FitResult& fitted, const CaptureEs
     const bool captures = point.captured > 0 && point.velocity > *interval.lower;
     if (!rebounds && !captures) continue;
     const RowDeviance deviance(fitted, i, capture.value);
-    const auto excess = [&](double ln) { return deviance(std::exp(ln)) - most; };
     const double middle = std::log(capture.value);
-    if (excess(middle) > 0.0) continue;
+    const double at_estimate = deviance(capture.value);
+    if (at_estimate > most) continue;
+    const auto excess = [&](double ln) { return deviance(std::exp(ln)) - at_estimate - most; };
     const auto cut = [&](double& end) {
       const double ln = std::log(end);
       if (!(excess(ln) > 0.0)) return;
-      const double root = find_root(excess, std::min(ln, middle), std::max(ln, middle), 1e-6);
+      const double root = find_root(excess, std::min(ln, middle), std::max(ln, middle), 1e-9);
       if (!std::isnan(root)) end = std::exp(root);
     };
     if (rebounds) cut(*interval.upper);

@@ -7,7 +7,8 @@ namespace recoil {
 struct FitResult;
 
 /// Cuts an interval of V* where single rows of this size exclude it. A row excludes a value if -2
-/// ln of its likelihood ratio there exceeds the square of the quantile that the level gives.
+/// ln of the ratio of its likelihood there and at the estimate exceeds the square of the quantile
+/// that the level gives.
 ///
 /// If V* were above the velocity of a rebound, the model would have no rebound, e^2 <= 0: the row
 /// tells how unlikely that is, whatever the parameters. If V* were below the velocity of a capture,

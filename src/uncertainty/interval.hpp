@@ -32,7 +32,10 @@ enum class NoInterval {
   fixed,                     ///< the parameter was not fitted
   nothing_free,              ///< no parameter was fitted
   no_standard_error,         ///< the parameter rests on a bound, or the points do not determine it
-  refit_failed,              ///< a refit along the profile failed
+  no_ends,                   ///< neither end of the profile was found, see `find_profile_end`
+  no_lower_end,              ///< the lower end of the profile was not found
+  no_upper_end,              ///< the upper end of the profile was not found
+  end_at_estimate,           ///< an end is the estimate, which is not at a bound
   few_replicates,            ///< fewer than `fewest_replicates`
   few_delete_one_refits,     ///< fewer than three delete-one refits succeeded
   one_sided_replicates,      ///< all replicates lie on one side of the estimate, as at a bound
@@ -46,11 +49,11 @@ enum class NoInterval {
   all_captured,    ///< capture velocity: no sphere rebounded
 };
 constexpr auto names_of_values(NoInterval) {
-  return name_list("not_assessed", "fixed", "nothing_free", "no_standard_error", "refit_failed",
-                   "few_replicates", "few_delete_one_refits", "one_sided_replicates",
-                   "large_acceleration", "replicates_without_error", "refits_failed",
-                   "never_rebounds", "never_captured", "no_covariance", "noise_unknown",
-                   "all_captured");
+  return name_list("not_assessed", "fixed", "nothing_free", "no_standard_error", "no_ends",
+                   "no_lower_end", "no_upper_end", "end_at_estimate", "few_replicates",
+                   "few_delete_one_refits", "one_sided_replicates", "large_acceleration",
+                   "replicates_without_error", "refits_failed", "never_rebounds", "never_captured",
+                   "no_covariance", "noise_unknown", "all_captured");
 }
 
 /// The smallest number of replicates for an interval: (B + 1) (1 - level) / 2 >= 1.
@@ -110,6 +113,21 @@ struct Interval {
 inline Interval no_interval(NoInterval why) {
   Interval interval;
   interval.missing = why;
+  return interval;
+}
+
+/// Was an end of this profile interval not found?
+inline bool lacks_ends(const Interval& profile) {
+  return profile.missing == NoInterval::no_ends || profile.missing == NoInterval::no_lower_end ||
+         profile.missing == NoInterval::no_upper_end;
+}
+
+/// `interval`, or none if one of its ends is an estimate that is at neither bound.
+inline Interval with_both_arms(Interval interval, double estimate, double lower, double upper) {
+  const bool missing = interval.lower == estimate || interval.upper == estimate;
+  if (missing && estimate > lower && estimate < upper) {
+    return no_interval(NoInterval::end_at_estimate);
+  }
   return interval;
 }
 

@@ -17,6 +17,11 @@ namespace recoil {
 
 namespace {
 
+Interval checked(const FitResult& fitted, std::size_t j, Interval interval) {
+  const ParameterSlot& slot = fitted.model.slots[j];
+  return with_both_arms(std::move(interval), fitted.theta[j], slot.lower, slot.upper);
+}
+
 /// Percentile, BCa and studentized intervals of slot j; no intervals if too many refits failed.
 void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::size_t j,
                    const std::vector<std::vector<double>>& delete_one, double level,
@@ -31,14 +36,16 @@ void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::si
   const ParameterSlot& slot = fitted.model.slots[j];
   const std::vector<double> replicates = finite_column(boot.theta, j);
   const std::vector<double> without_one = finite_column(delete_one, j);
-  set[IntervalKind::percentile] = percentile_interval(replicates, level);
-  set[IntervalKind::bca] = bca_interval(replicates, fitted.theta[j], without_one, level);
+  set[IntervalKind::percentile] = checked(fitted, j, percentile_interval(replicates, level));
+  set[IntervalKind::bca] =
+      checked(fitted, j, bca_interval(replicates, fitted.theta[j], without_one, level));
   if (!replicates.empty() && !without_one.empty()) {
     set.bca_constants = bca_constants(replicates, fitted.theta[j], without_one);
   }
   set[IntervalKind::studentized] =
-      studentized_interval(replicates, finite_column(boot.std_error, j), fitted.theta[j],
-                           boot.reference_error[j], level, slot.lower, slot.upper);
+      checked(fitted, j,
+              studentized_interval(replicates, finite_column(boot.std_error, j), fitted.theta[j],
+                                   boot.reference_error[j], level, slot.lower, slot.upper));
   set.bound_share = bound_share(boot, slot, j);
 }
 
@@ -49,8 +56,8 @@ struct Arms {
 
 /// The profile interval averaged over the alternatives: its ends have the averaged tail areas
 /// (Turek & Fletcher 2012, see `averaged_wald_interval`). Under each alternative the distribution
-/// has two halves, which have the arms of its profile; an alternative with a weight of less than
-/// `own_profile` has those of the first, in its standard errors.
+/// has two halves, which have the arms of its profile; an alternative without one, or with a weight
+/// of less than `own_profile`, has those of the first, in its standard errors.
 Interval averaged_profile(const std::vector<FitAlternative>& alternatives, std::size_t j,
                           double level) {
   constexpr double own_profile = 0.1;
@@ -72,11 +79,14 @@ Interval averaged_profile(const std::vector<FitAlternative>& alternatives, std::
     const FitResult& other = alternatives[k].fitted();
     Arms arms = of_first;
     const double ratio = first.std_error[j] > 0.0 ? other.std_error[j] / first.std_error[j] : 0.0;
+    Interval own;
     if (k > 0 && (alternatives[k].weight >= own_profile || !(ratio > 0.0))) {
-      const Interval own = profile_interval(other, j, level);
-      if (!own.available()) continue;
+      own = profile_interval(other, j, level);
+    }
+    if (own.available()) {
       arms = {other.theta[j] - *own.lower, *own.upper - other.theta[j]};
     } else if (k > 0) {
+      if (!(ratio > 0.0)) continue;
       arms = {ratio * arms.down, ratio * arms.up};
     }
     terms.push_back({alternatives[k].weight, other.theta[j], arms, degrees_of_freedom(other, j)});
@@ -131,8 +141,8 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<FitAlternative>&
       }
       return;
     }
-    set[IntervalKind::wald] = averaged_wald(alternatives, j, level);
-    set[IntervalKind::profile] = averaged_profile(alternatives, j, level);
+    set[IntervalKind::wald] = checked(fitted, j, averaged_wald(alternatives, j, level));
+    set[IntervalKind::profile] = checked(fitted, j, averaged_profile(alternatives, j, level));
   });
   return sets;
 }

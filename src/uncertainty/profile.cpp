@@ -8,50 +8,51 @@
 
 #include "estimate/impact_problem.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/profile_end.hpp"
 #include "uncertainty/refit.hpp"
 
 namespace recoil {
 
 namespace {
 
-constexpr int most_strides = 60;
-constexpr int most_bisections = 60;
 constexpr int curve_steps = 14;  // on either side of the estimate
 // Reach of a curve, over the distance from the estimate to the end.
 constexpr double curve_reach = 1.4;
-// Relative tolerance of the rise at the last evaluation before an interval's end. A secant from
-// there leaves less than 1e-6 of the distance from the estimate.
-constexpr double end_tolerance = 1e-4;
 
 class Profile {
  public:
   Profile(const FitResult& fitted, std::size_t slot)
-      : fitted_(fitted), weights_(fitted.weights), slot_(slot) {
-    problem_ = impact_problem(fitted.model, fitted.data, weights_);
+      : fitted_(fitted), kept_{fitted.theta, fitted.weights}, last_(kept_), slot_(slot) {
+    problem_ = impact_problem(fitted.model, fitted.data, last_.weights);
     problem_.fixed[slot] = true;
-    least_ = fitted.objective + event_spread_offset(fitted.data, weights_);
+    least_ = fitted.objective + event_spread_offset(fitted.data, fitted.weights);
   }
 
   /// The increase of chi2 over its minimum with the slot at `value`, minimised over the other
-  /// parameters and the spread of the impacts. `others` is the start of the refit and receives its
-  /// end. Nullopt if it fails.
-  std::optional<double> rise(double value, std::vector<double>& others) {
+  /// parameters and the spread of the impacts from the kept place. Nullopt if it fails.
+  std::optional<double> rise(double value) {
+    last_ = kept_;
+    auto& [others, weights] = last_;
     follow(value, others);
     double before = INFINITY;
     for (int round = 0; round < most_rounds; ++round) {
       const LeastSquaresResult refit = minimise(problem_, others, options_);
       if (!refit.ended()) return std::nullopt;
       others = refit.theta;
-      const double now =
-          refit.sum_of_squares + event_spread_offset(fitted_.data, weights_) - least_;
-      if (!(weights_.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;
+      const double now = refit.sum_of_squares + event_spread_offset(fitted_.data, weights) - least_;
+      if (!(weights.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;
       before = now;
-      auto renewed = with_event_spread_at(fitted_.model, fitted_.data, weights_, others);
+      auto renewed = with_event_spread_at(fitted_.model, fitted_.data, weights, others);
       if (!renewed) return std::nullopt;
-      weights_ = std::move(*renewed);
+      weights = std::move(*renewed);
     }
     return before;
   }
+
+  /// Keeps the place where the last refit ended.
+  void keep() { kept_ = last_; }
+  /// Keeps the fit itself.
+  void restart() { kept_ = {fitted_.theta, fitted_.weights}; }
 
  private:
   /// Moves the slot to `value` and the other parameters with it, as they do to first order.
@@ -72,8 +73,13 @@ class Profile {
   // Tolerance of the rise: a thousandth of the interval's width.
   static constexpr double at_rest = 5e-3;
 
+  struct Place {
+    std::vector<double> theta;
+    Weights weights;  ///< with the spread of the impacts there
+  };
+
   const FitResult& fitted_;
-  Weights weights_;  ///< with the spread of the last refit
+  Place kept_, last_;
   LeastSquaresProblem problem_;
   std::size_t slot_;
   const LeastSquaresOptions options_ = refit_options();
@@ -186,72 +192,6 @@ Allowance allowance(const FitResult& fitted, std::size_t slot, double level, dou
           fitted.noise_scale * fitted.noise_scale, error};
 }
 
-/// One end of the interval: steps from the estimate in `direction` until the rise exceeds the
-/// allowed one, then regula falsi (Illinois). Nullopt if a refit fails.
-struct End {
-  double value;
-  bool at_bound;
-};
-std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size_t slot,
-                            double direction, const Allowance& allowed, double stride) {
-  const ParameterSlot& parameter = fitted.model.slots[slot];
-  const double bound = direction < 0.0 ? parameter.lower : parameter.upper;
-  std::vector<double> others = fitted.theta;
-  double inside = fitted.theta[slot];
-  double outside = inside;
-  if (inside == bound) return End{bound, true};
-  // sqrt(rise) is nearly linear in the parameter, so regula falsi converges quickly. It is written
-  // here because every evaluation is a fit that may fail, and convergence is judged by the rise,
-  // not by the position.
-  const auto excess = [&](double rise, double value) {
-    return std::sqrt(std::max(rise, 0.0)) - std::sqrt(allowed(value));
-  };
-  double f_in = excess(0.0, inside);
-  double f_out = f_in;
-  for (int i = 0;; ++i) {
-    if (i == most_strides) return std::nullopt;
-    outside = inside + direction * stride;
-    if (direction * (outside - bound) >= 0.0) outside = bound;
-    const auto rise = profile.rise(outside, others);
-    if (!rise) return std::nullopt;
-    f_out = excess(*rise, outside);
-    if (f_out > 0.0) break;
-    if (outside == bound) return End{bound, true};
-    inside = outside;
-    f_in = f_out;
-    stride *= 1.6;
-  }
-  double before = outside;  // the last evaluation
-  double f_before = f_out;
-  for (int i = 0; i < most_bisections; ++i) {
-    const double guess = outside - f_out * (outside - inside) / (f_out - f_in);
-    const auto rise = profile.rise(guess, others);
-    if (!rise) return std::nullopt;
-    const double wanted = allowed(guess);
-    const double f = excess(*rise, guess);
-    if (std::abs(*rise - wanted) <= end_tolerance * wanted) {
-      const double slope = (f - f_before) / (guess - before);
-      const bool outwards = slope * direction > 0.0;
-      return End{outwards ? std::clamp(guess - f / slope, std::min(inside, outside),
-                                       std::max(inside, outside))
-                          : guess,
-                 false};
-    }
-    before = guess;
-    f_before = f;
-    if (f > 0.0) {
-      outside = guess;
-      f_out = f;
-      f_in *= 0.5;
-    } else {
-      inside = guess;
-      f_in = f;
-      f_out *= 0.5;
-    }
-  }
-  return End{inside, false};
-}
-
 }  // namespace
 
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level) {
@@ -267,11 +207,17 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
     const double start = std::abs(fitted.model.slots[slot].initial);
     stride = start > 0.0 ? 0.1 * start : 1e-3 * fitted.model.slots[slot].upper;
   }
-  const auto low = find_end(profile, fitted, slot, -1.0, allowed, stride);
-  const auto high = find_end(profile, fitted, slot, +1.0, allowed, stride);
-  if (!low || !high) return no_interval(NoInterval::refit_failed);
+  const ProfileWalk walk = {[&](double at) { return profile.rise(at); }, [&] { profile.keep(); }};
+  const auto low = find_profile_end(walk, value, fitted.model.slots[slot].lower, stride, allowed);
+  profile.restart();
+  const auto high = find_profile_end(walk, value, fitted.model.slots[slot].upper, stride, allowed);
+  if (!low || !high) {
+    return no_interval(low    ? NoInterval::no_upper_end
+                       : high ? NoInterval::no_lower_end
+                              : NoInterval::no_ends);
+  }
   const ConstantErrors constants(fitted, slot);
-  const auto end = [&](const End& of) {
+  const auto end = [&](const ProfileEnd& of) {
     if (of.at_bound || !(fitted.noise_scale > 0.0)) return of.value;
     return constants.widened(of.value, std::sqrt(allowed(of.value)) / fitted.noise_scale);
   };
@@ -304,11 +250,12 @@ std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slo
     const double end = constants.narrowed(quoted, std::sqrt(allowed(quoted) / scale));
     const double last =
         std::clamp(estimate + curve_reach * (end - estimate), parameter.lower, parameter.upper);
-    std::vector<double> others = fitted.theta;
+    profile.restart();
     for (int k = 1; k <= curve_steps && last != estimate; ++k) {
       const double value = estimate + (last - estimate) * k / curve_steps;
-      const auto rise = profile.rise(value, others);
+      const auto rise = profile.rise(value);
       if (!rise) break;
+      profile.keep();
       curve.push_back(point(value, *rise));
     }
     if (direction < 0.0) {

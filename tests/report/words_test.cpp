@@ -57,9 +57,21 @@ TEST(Words, OfTheRecommendedInterval) {
   set.student = true;
   EXPECT_THAT(recommended_words(set), testing::HasSubstr("Student"));
   set.recommended = IntervalKind::wald;
-  set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
+  set[IntervalKind::profile] = no_interval(NoInterval::no_lower_end);
   EXPECT_EQ(recommended_words(set),
-            "there is no profile: " + missing_words(no_interval(NoInterval::refit_failed)));
+            "there is no profile: " + missing_words(no_interval(NoInterval::no_lower_end)));
+}
+
+TEST(Words, WarnOfAProfileWithoutAnEnd) {
+  Analysis analysis = sample::four_diameters();
+  IntervalSet& set = analysis.uncertainty.intervals.front();
+  const std::size_t before = all_warnings(analysis).size();
+  for (const NoInterval why : {NoInterval::no_ends, NoInterval::no_lower_end,
+                               NoInterval::no_upper_end, NoInterval::noise_unknown}) {
+    set[IntervalKind::profile] = no_interval(why);
+    set.recommended = IntervalKind::wald;
+    EXPECT_EQ(all_warnings(analysis).size(), before + (why != NoInterval::noise_unknown ? 1 : 0));
+  }
 }
 
 TEST(Words, WhyNoDiameterIsHeldOut) {

@@ -116,5 +116,32 @@ TEST(CaptureRows, CutAtTheSlowestRebound) {
   EXPECT_EQ(*same.upper, *narrow.upper);
 }
 
+/// A capture just above V* is unlikely under the estimate already.
+TEST(CaptureRows, CutWhereARowIsLessLikelyThanUnderTheEstimate) {
+  constexpr double sd = 0.01;
+  const std::vector<Dataset> datasets = {measured({1.3, 1.9, 3.2, 5.5, 9.5}, {0.6, 0.8}, sd, 1)};
+  FitResult fitted = one_size::fit_to(datasets.front());
+  ASSERT_TRUE(fitted.usable);
+  const CaptureEstimate v = capture_estimates(fit_alternatives(fitted), 0.95, datasets).front();
+  const double truth = true_capture_velocity(one_size::truth(), one_size::diameter);
+  // -2 ln of the probability of a capture at this velocity over V*; e^2 has the error sqrt(2) sd^2.
+  const auto deviance = [&](double over_capture) {
+    const double e = true_restitution(one_size::truth(), one_size::diameter, truth * over_capture);
+    return -2.0 * std::log(0.5 * std::erfc(e * e / (2.0 * sd * sd)));
+  };
+  const double most = std::pow(student_quantile(0.975, fitted.quantile_dof), 2);
+  int close = 0;
+  for (double over = 1.0; deviance(over) < 0.99 * most; over += 2e-6) {
+    fitted.data.points[1].velocity = over * v.value;
+    Interval wide;
+    wide.lower = 0.1 * v.value;
+    wide.upper = 10.0 * v.value;
+    const double lower = *cut_by_rows(wide, fitted, v, 0.95).lower;
+    EXPECT_NEAR(deviance(over * v.value / lower) - deviance(over), most, 0.1 * most) << over;
+    close += deviance(over) > 0.8 * most ? 1 : 0;
+  }
+  EXPECT_GT(close, 0);
+}
+
 }  // namespace
 }  // namespace recoil

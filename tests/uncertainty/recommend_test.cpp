@@ -56,7 +56,7 @@ TEST(Recommend, ProfileThenPercentileThenWald) {
   EXPECT_FALSE(set.student);
   recommend(set, false);
   EXPECT_TRUE(set.student);
-  set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
+  set[IntervalKind::profile] = no_interval(NoInterval::no_lower_end);
   recommend(set, true);
   EXPECT_EQ(set.recommended, IntervalKind::percentile);
   set[IntervalKind::percentile] = Interval{};

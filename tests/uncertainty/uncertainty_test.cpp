@@ -1,6 +1,7 @@
 // Bootstrap, profile and comparison on a fit with a known answer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -313,6 +314,92 @@ TEST(Profile, CurveIsTheRiseOfRefitsWithTheSlotHeld) {
       held.slots[slot].initial = curve[k].value;
       const FitResult refit = fit(held, c.data);
       EXPECT_NEAR(curve[k].rise, (refit.chi2 - c.fitted.chi2) / scale, 0.01);
+    }
+  }
+}
+
+/// Polystyrene on silicon read by a velocimeter with an error of -0.08 m/s, and the fit of that
+/// error. Some of the points are captures: beyond the end of its interval, the model takes one of
+/// them for a rebound, and refits find another minimum.
+Case misread_velocities(std::uint64_t seed) {
+  constexpr double error = -0.08;  // [m/s]
+  Truth truth;
+  truth.density = 1050.0;
+  truth.stiffness = 4.069e9;
+  truth.adhesion_force = 11.5;
+  truth.reference_diameter = 4.9e-6;
+  truth.C_H = 3e-3;
+  truth.C_A = 0.03;
+  Dataset data = synthetic::dataset({});
+  data.system.particle = {"polystyrene", truth.density, 2.78e9, 0.33, std::nullopt};
+  data.system.surface = {"silicon", 0.0, 129e9, 0.28, std::nullopt};
+  data.system.stiffness_K = truth.stiffness;
+  data.system.adhesion_force_f0 = truth.adhesion_force;
+  data.series = {"2", "4.9", "9.8"};
+  data.points.clear();
+  RandomStream random(seed, RandomPurpose::coverage, 0);
+  for (const double um : {2.0, 4.9, 9.8}) {
+    for (int i = 0; i < 12; ++i) {
+      const double slowest = 2.1375 * std::pow(2.0 / um, 1.25);
+      const double v = slowest * std::pow(25.0 / slowest, i / 11.0);
+      const double e = true_restitution(truth, um * 1e-6, v);
+      ImpactPoint point;
+      point.series = um == 2.0 ? 0 : um == 4.9 ? 1 : 2;
+      point.diameter = um * 1e-6;
+      point.incident_velocity = v + error;
+      point.events = 20;
+      point.counted = true;
+      if (e > 0.0) {
+        point.restitution = (e * v + error) / (v + error) + 0.006 * random.normal();
+        point.restitution_sd = 0.006;
+      } else {
+        point.captured = 20;
+      }
+      data.points.push_back(point);
+    }
+  }
+  FitSpec spec = synthetic::spec();
+  spec.mechanisms = {"velocity_offset"};
+  spec.parameters.clear();
+  for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
+    spec.parameters.push_back(default_of(*parameter));
+    if (parameter->name == "f0") spec.parameters.back().free = false;
+  }
+  Case c;
+  c.datasets = {data};
+  c.data = gather(c.datasets);
+  c.fitted = fit(make_model(spec, c.datasets), c.data);
+  return c;
+}
+
+TEST(Profile, EndsWhereRefitsDoIfAnotherMinimumLiesBehind) {
+  for (const std::uint64_t seed : {1U, 8U}) {
+    const Case c = misread_velocities(seed);
+    for (const char* name : {"C_A", "velocity_error"}) {
+      const auto slot = static_cast<std::size_t>(
+          std::find_if(c.fitted.model.slots.begin(), c.fitted.model.slots.end(),
+                       [&](const ParameterSlot& s) { return s.parameter->name == name; }) -
+          c.fitted.model.slots.begin());
+      const Interval interval = profile_interval(c.fitted, slot, 0.95);
+      ASSERT_TRUE(interval.available());
+      EXPECT_EQ(interval.shape, ProfileShape::bounded);
+      for (const double end : {*interval.lower, *interval.upper}) {
+        // From the estimate to the end in short steps, through the public fit only.
+        FitOptions from_there;
+        from_there.several_starts = false;
+        FitResult refit = c.fitted;
+        constexpr int steps = 20;
+        for (int k = 1; k <= steps; ++k) {
+          ImpactModel held = c.fitted.model;
+          for (std::size_t j = 0; j < held.slots.size(); ++j)
+            held.slots[j].initial = refit.theta[j];
+          held.slots[slot].free = false;
+          held.slots[slot].initial =
+              c.fitted.theta[slot] + k * (end - c.fitted.theta[slot]) / steps;
+          refit = fit(held, c.data, from_there);
+        }
+        EXPECT_NEAR(refit.chi2 - c.fitted.chi2, 3.841458821, 0.01) << name << " " << seed;
+      }
     }
   }
 }
