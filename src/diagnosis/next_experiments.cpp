@@ -132,22 +132,20 @@ struct PredictedImpacts {
   std::vector<double> variance;     ///< variance of that mean over the variance of one impact
 };
 
-/// e of the possible impacts, -sqrt(-e^2) for a capture: the further from rebounding, the lower;
-/// NaN if an impact cannot be solved.
-Eigen::ArrayXd restitutions(const ImpactModel& model, const std::vector<double>& theta,
-                            const PossibleImpacts& possible, const Mechanism* removed) {
+/// e^2 of the possible impacts, below 0 for a capture; NaN if an impact cannot be solved.
+Eigen::ArrayXd squares(const ImpactModel& model, const std::vector<double>& theta,
+                       const PossibleImpacts& possible, const Mechanism* removed) {
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
   Eigen::ArrayXd found(static_cast<Eigen::Index>(possible.at.size()));
   Eigen::Index i = 0;
   for (const Prediction& at : predict(model, changed, possible.at, false)) {
-    const double square = at.usable() ? at.restitution_squared : NAN;
-    found(i++) = std::copysign(std::sqrt(std::abs(square)), square);
+    found(i++) = at.usable() ? at.restitution_squared : NAN;
   }
   return found;
 }
 
-double or_capture(double e) { return e < 0.0 ? 0.0 : e; }
+double restitution_of(double square) { return square < 0.0 ? 0.0 : std::sqrt(square); }
 
 /// The normal distribution of the unknowns of a rival given the measured points, and what they do
 /// to the possible impacts.
@@ -155,7 +153,7 @@ struct Unknowns {
   Eigen::VectorXd likeliest;                ///< [parameters, then errors of the laws]
   Eigen::LLT<Eigen::MatrixXd> information;  ///< the inverse of their covariance
   Eigen::VectorXd length;                   ///< of the parameters' columns: their scale
-  Eigen::MatrixXd by_laws;                  ///< d residual / d error of a law [possible x errors]
+  Eigen::MatrixXd by_laws;                  ///< d e^2 / d error of a law [possible x errors]
 };
 
 /// @return nullopt if they cannot be computed
@@ -166,14 +164,13 @@ std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResul
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
   const Eigen::ArrayXd expected =
-      restitutions(model, theta, possible, removed).unaryExpr(&or_capture);
+      squares(model, theta, possible, removed).unaryExpr(&restitution_of);
   const WeightedData all =
       with_possible(base.fitted, possible, {expected.data(), expected.data() + expected.size()});
   LawErrors laws = base.laws;
   laws.functions = smooth_functions(all.data);
   const auto here = linearised_at(rival, all, theta, laws);
-  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
-  if (!here || !there) return std::nullopt;
+  if (!here) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
   std::vector<Eigen::Index> measured;  // and constants
@@ -194,7 +191,11 @@ std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResul
   found.information.compute(information);
   if (found.information.info() != Eigen::Success) return std::nullopt;
   found.likeliest = -found.information.solve(known.transpose() * here->residuals(measured));
-  found.by_laws = there->slopes.middleRows(n, g).rightCols(known.cols() - p);
+  laws.functions = Eigen::MatrixXd(laws.functions.bottomRows(g));
+  auto effects =
+      law_error_effects(rival.candidate, possible.at, changed, laws, rival.refit.law_error);
+  if (!effects) return std::nullopt;
+  found.by_laws = std::move(effects->changes);
   return found;
 }
 
@@ -228,8 +229,7 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
                                model.slots[slot].upper);
     }
     const Eigen::ArrayXd by_laws = (unknowns->by_laws * x.tail(count - p)).array();
-    drawn.col(k) =
-        (restitutions(model, theta, possible, removed) - sd * by_laws).unaryExpr(&or_capture);
+    drawn.col(k) = (squares(model, theta, possible, removed) + by_laws).unaryExpr(&restitution_of);
   }
   const Eigen::ArrayXd mean = drawn.rowwise().mean();
   const Eigen::ArrayXd variance = (drawn.colwise() - mean).square().rowwise().mean();
