@@ -126,7 +126,7 @@ namespace {
 std::string same_elsewhere(const std::string& word, const std::vector<std::string>& known) {
   constexpr std::array<std::string_view, 2> folder = {"--out", "--into"};  // where results go
   if (std::ranges::find(folder, word) == folder.end()) return "";
-  const auto here = std::ranges::find_first_of(known, folder);
+  const auto here = std::find_first_of(known.begin(), known.end(), folder.begin(), folder.end());
   return here == known.end() ? "" : *here;
 }
 
