@@ -741,7 +741,8 @@ std::optional<OutlyingBatch> outlying(std::vector<BatchMean> means, bool launch)
     const auto last = std::find_if(first, means.end(), [&](const BatchMean& mean) {
       return mean.reading.series != first->reading.series;
     });
-    const std::optional<OutlyingBatch> own = outlying_in({first, last}, tested, launch);
+    const std::span of_series(&*first, static_cast<std::size_t>(last - first));
+    const std::optional<OutlyingBatch> own = outlying_in(of_series, tested, launch);
     if (own && (!found || own->p_value < found->p_value)) found = own;
     first = last;
   }
