@@ -50,13 +50,13 @@ LawErrors allowed_law_errors(std::optional<double> stated, const Observations& d
   return laws;
 }
 
-std::optional<LawErrorEffects> law_error_effects(const Candidate& candidate,
-                                                 const std::vector<PointConditions>& points,
+std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
+                                                 const Observations& data, const Weights& weights,
                                                  std::span<const double> theta,
                                                  const LawErrors& laws, double size) {
   const ImpactModel& model = candidate.model;
   const std::vector<double> full(theta.begin(), theta.end());
-  PointPredictor predictor(model, points);
+  PointPredictor predictor(model, data.conditions());
   const std::optional<Eigen::VectorXd> all = squares(predictor, full);
   if (!all) return std::nullopt;
   const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
@@ -70,30 +70,18 @@ std::optional<LawErrorEffects> law_error_effects(const Candidate& candidate,
     sizes.push_back(laws.mechanism *
                     (*all - *less).array().min(most_loss).max(-most_loss).matrix());
   }
-  const Eigen::Index rank = laws.functions.cols();
-  LawErrorEffects found{*all, Eigen::MatrixXd(all->size(), rank * std::ssize(sizes))};
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    found.changes.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
-        sizes[k].asDiagonal() * laws.functions;
-  }
-  return found;
-}
-
-std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
-                                                 const Observations& data, const Weights& weights,
-                                                 std::span<const double> theta,
-                                                 const LawErrors& laws, double size) {
-  std::optional<LawErrorEffects> effects =
-      law_error_effects(candidate, data.conditions(), theta, laws, size);
-  if (!effects) return std::nullopt;
-  Eigen::VectorXd slopes(effects->square.size());
+  Eigen::VectorXd slopes(all->size());
   for (Eigen::Index i = 0; i < slopes.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     slopes(i) =
-        weighted_residual(data.points[k], weights.points[k], effects->square(i), data.noise.student)
-            .slope;
+        weighted_residual(data.points[k], weights.points[k], (*all)(i), data.noise.student).slope;
   }
-  Eigen::MatrixXd columns = slopes.asDiagonal() * effects->changes;
+  const Eigen::Index rank = laws.functions.cols();
+  Eigen::MatrixXd columns(slopes.size(), rank * static_cast<Eigen::Index>(sizes.size()));
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
+        slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
+  }
   whiten_shared(data, weights, columns);
   return columns;
 }

@@ -53,19 +53,6 @@ struct LawErrors {
 /// @param stated error of the law of a mechanism [1]; empty: averaged over
 LawErrors allowed_law_errors(std::optional<double> stated, const Observations& data);
 
-/// e^2 of points, and what errors of the laws of one standard deviation do to it.
-struct LawErrorEffects {
-  Eigen::VectorXd square;   ///< below 0 for a capture [points]
-  Eigen::MatrixXd changes;  ///< [points x errors]
-};
-
-/// For errors of the size `size` of the base model at `theta`. Nullopt if an impact cannot be
-/// solved.
-std::optional<LawErrorEffects> law_error_effects(const Candidate& candidate,
-                                                 const std::vector<PointConditions>& points,
-                                                 std::span<const double> theta,
-                                                 const LawErrors& laws, double size);
-
 /// The errors of the laws, `size` for the base model, in the weighted residuals of `data` at
 /// `theta`: U [points x errors] of `Discrepancy`. Nullopt if an impact cannot be solved.
 std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,

@@ -130,22 +130,21 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Weig
 struct PredictedImpacts {
   std::vector<double> restitution;  ///< mean e, 0 for a capture; NaN if the impact cannot be solved
   std::vector<double> variance;     ///< variance of that mean over the variance of one impact
+  std::vector<bool> rebounds;       ///< at the likeliest parameters and with exact laws
 };
 
-/// e^2 of the possible impacts, below 0 for a capture; NaN if an impact cannot be solved.
-Eigen::ArrayXd squares(const ImpactModel& model, const std::vector<double>& theta,
-                       const PossibleImpacts& possible, const Mechanism* removed) {
+/// e of the possible impacts, 0 for a capture; NaN if an impact cannot be solved.
+Eigen::ArrayXd restitutions(const ImpactModel& model, const std::vector<double>& theta,
+                            const PossibleImpacts& possible, const Mechanism* removed) {
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
   Eigen::ArrayXd found(static_cast<Eigen::Index>(possible.at.size()));
   Eigen::Index i = 0;
   for (const Prediction& at : predict(model, changed, possible.at, false)) {
-    found(i++) = at.usable() ? at.restitution_squared : NAN;
+    found(i++) = at.usable() ? at.restitution() : NAN;
   }
   return found;
 }
-
-double restitution_of(double square) { return square < 0.0 ? 0.0 : std::sqrt(square); }
 
 /// The normal distribution of the unknowns of a rival given the measured points, and what they do
 /// to the possible impacts.
@@ -153,7 +152,7 @@ struct Unknowns {
   Eigen::VectorXd likeliest;                ///< [parameters, then errors of the laws]
   Eigen::LLT<Eigen::MatrixXd> information;  ///< the inverse of their covariance
   Eigen::VectorXd length;                   ///< of the parameters' columns: their scale
-  Eigen::MatrixXd by_laws;                  ///< d e^2 / d error of a law [possible x errors]
+  Eigen::MatrixXd by_laws;                  ///< d residual / d error of a law [possible x errors]
 };
 
 /// @return nullopt if they cannot be computed
@@ -163,14 +162,14 @@ std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResul
   const std::vector<double>& theta = rival.refit.theta;
   const std::vector<double> changed =
       removed == nullptr ? theta : without_mechanism(model, theta, *removed);
-  const Eigen::ArrayXd expected =
-      squares(model, theta, possible, removed).unaryExpr(&restitution_of);
+  const Eigen::ArrayXd expected = restitutions(model, theta, possible, removed);
   const WeightedData all =
       with_possible(base.fitted, possible, {expected.data(), expected.data() + expected.size()});
   LawErrors laws = base.laws;
   laws.functions = smooth_functions(all.data);
   const auto here = linearised_at(rival, all, theta, laws);
-  if (!here) return std::nullopt;
+  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
+  if (!here || !there) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
   std::vector<Eigen::Index> measured;  // and constants
@@ -191,11 +190,7 @@ std::optional<Unknowns> unknowns_of(const SearchBase& base, const CandidateResul
   found.information.compute(information);
   if (found.information.info() != Eigen::Success) return std::nullopt;
   found.likeliest = -found.information.solve(known.transpose() * here->residuals(measured));
-  laws.functions = Eigen::MatrixXd(laws.functions.bottomRows(g));
-  auto effects =
-      law_error_effects(rival.candidate, possible.at, changed, laws, rival.refit.law_error);
-  if (!effects) return std::nullopt;
-  found.by_laws = std::move(effects->changes);
+  found.by_laws = there->slopes.middleRows(n, g).rightCols(known.cols() - p);
   return found;
 }
 
@@ -207,6 +202,9 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
   PredictedImpacts found;
   found.restitution.assign(possible.at.size(), NAN);
   found.variance.assign(possible.at.size(), NAN);
+  const Eigen::ArrayXd likeliest =
+      restitutions(rival.candidate.model, rival.refit.theta, possible, removed);
+  for (const double e : likeliest) found.rebounds.push_back(e > 0.0);
   const auto unknowns = unknowns_of(base, rival, possible, removed);
   if (!unknowns) return found;
   const ImpactModel& model = rival.candidate.model;
@@ -229,7 +227,9 @@ PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult
                                model.slots[slot].upper);
     }
     const Eigen::ArrayXd by_laws = (unknowns->by_laws * x.tail(count - p)).array();
-    drawn.col(k) = (squares(model, theta, possible, removed) + by_laws).unaryExpr(&restitution_of);
+    const auto or_capture = [](double e) { return e < 0.0 ? 0.0 : e; };
+    drawn.col(k) =
+        (restitutions(model, theta, possible, removed) - sd * by_laws).unaryExpr(or_capture);
   }
   const Eigen::ArrayXd mean = drawn.rowwise().mean();
   const Eigen::ArrayXd variance = (drawn.colwise() - mean).square().rowwise().mean();
@@ -309,6 +309,8 @@ bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
     const double difference = a.restitution[i] - b.restitution[i];
     const double apart = difference / possible.sd[i];
     if (!std::isfinite(apart + a.variance[i] + b.variance[i])) continue;
+    // Where all spheres stick, there is no e, however wrong the laws may be.
+    if (!a.rebounds[i] && !b.rebounds[i]) continue;
     const auto odds = [&](double count) {
       return expected_log_odds(apart, a.variance[i], b.variance[i], first, count);
     };

@@ -66,8 +66,9 @@ inline constexpr std::string_view law_error_as_rival = "law_error";
 /// rival is proportional to exp(-`delta_aicc` / 2).
 ///
 /// The impacts to choose from are 24 velocities from 0.7 times the slowest to 1.5 times the fastest
-/// measured, for every diameter of the data and for the commercial sphere sizes nearest to 0.6
-/// times the smallest and 1.6 times the largest diameter.
+/// measured at which spheres rebound under one of the two, for every diameter of the data and for
+/// the commercial sphere sizes nearest to 0.6 times the smallest and 1.6 times the largest
+/// diameter.
 ///
 /// Each rival predicts the mean e of n impacts as a normal variable. Its variance has three parts:
 /// the scatter of one impact over n, the errors of the fitted parameters, and the errors of the

@@ -126,7 +126,7 @@ TEST(NextExperiment, IsNoImpactInWhichAllSpheresStick) {
                                     experiment.diameter, experiment.velocity, false)
                                 .restitution_squared);
     }
-    EXPECT_GT(most, -0.1) << experiment.velocity;
+    EXPECT_GT(most, 0.0) << experiment.velocity;
   }
 }
 

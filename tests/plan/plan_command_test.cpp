@@ -167,14 +167,35 @@ struct Refused {
 // what a fit finds.
 TEST(PlanCommand, SaysThatAFitOfThePointsTakesAnotherLoss) {
   const Workplace place;
-  std::string text = "V,e\n";
-  for (const double v : {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6}) {
-    text += std::to_string(v) + "," + std::to_string(1.0 - 0.1 * std::pow(v, 0.2)) + "\n";
+  std::string text = "h1,h2\n";
+  for (const double drop : {20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0}) {  // [mm]
+    const double velocity = std::sqrt(2.0 * 9.80665e-3 * drop);
+    const double e = 1.0 - 0.1 * std::pow(velocity, 0.2);
+    text += std::to_string(drop) + "," + std::to_string(e * e * drop) + "\n";
   }
   place.write("drops.csv", text);
-  const Outcome made = place.run({"import", "drops.csv", "--map", "incident_velocity=V:m/s",
-                                  "--diameter", "10mm", "--particle", "steel", "--surface", "steel",
-                                  "--into", "balls", "--provenance", "measured"});
+  const Outcome made = place.run({"import",
+                                  "drops.csv",
+                                  "--format",
+                                  "heights",
+                                  "--map",
+                                  "drop_height=h1:mm,rebound_height=h2:mm",
+                                  "--drop-error",
+                                  "0.1mm",
+                                  "--rebound-error",
+                                  "0.1mm",
+                                  "--diameter",
+                                  "10mm",
+                                  "--particle",
+                                  "steel",
+                                  "--surface",
+                                  "steel",
+                                  "--adhesion-energy",
+                                  "0",
+                                  "--into",
+                                  "balls",
+                                  "--provenance",
+                                  "measured"});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string guessed = place.run({"plan", "balls/fit.toml"}).out;
   EXPECT_NE(guessed.find("viscoelastic"), std::string::npos) << guessed;
