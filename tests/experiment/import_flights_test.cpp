@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "core/random.hpp"
-#include "estimate/restitution_summary.hpp"
 #include "import_folder.hpp"
 
 namespace {
@@ -230,31 +229,6 @@ TEST(Intervals, LaunchesInColumnsAreRefusedWithTheMapThatReadsThem) {
       ImportFormat::intervals);
   rows.map = {"interval=t1+t2+t3:s"};
   EXPECT_EQ(recoil::import_points(rows).dataset.points.size(), 6U);
-}
-
-// In vacuum with e = 0.9, where 120 cm was 114 cm: the summary finds the height in the name of its
-// setting, and what it lacks.
-TEST(Heights, AWrongOneIsNamedAsTheFileHasIt) {
-  std::string rows = "h1,h2\n";
-  for (const double height : {30.0, 50.0, 70.0, 90.0, 105.0, 120.0, 150.0}) {
-    for (const double off : {-0.2, 0.0, 0.2}) {
-      const double fallen = height == 120.0 ? 114.0 : height;
-      rows += fmt::format("{},{}\n", height, 0.81 * fallen + off);
-    }
-  }
-  const Place place;
-  auto request = place.request(rows, ImportFormat::heights);
-  request.map = {"drop_height=h1:cm,rebound_height=h2:cm"};
-  request.diameters = {"40mm"};
-  request.particle.clear();
-  request.surface.clear();
-  request.rebound_error = "2mm";
-  request.conditions = {"ambient_pressure=0"};
-  const auto found =
-      recoil::summarise_restitution({recoil::read_bounces(request, 80.57).dataset}).outlier;
-  ASSERT_TRUE(found && found->height);
-  EXPECT_NEAR(*found->height, 1.2, 1e-9);
-  EXPECT_NEAR(found->height_error, -0.05, 0.005);
 }
 
 // In vacuum e = sqrt(0.5), 0.8 and 0.7; a ball of 2.7 g and 40 mm loses more to the air than one of
