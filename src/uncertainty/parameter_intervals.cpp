@@ -17,9 +17,9 @@ namespace recoil {
 
 namespace {
 
-Interval checked(const FitResult& fitted, std::size_t j, Interval interval) {
+Interval checked(const FitResult& fitted, std::size_t j, const Interval& interval) {
   const ParameterSlot& slot = fitted.model.slots[j];
-  return with_both_arms(std::move(interval), fitted.theta[j], slot.lower, slot.upper);
+  return with_both_arms(interval, fitted.theta[j], slot.lower, slot.upper);
 }
 
 /// Percentile, BCa and studentized intervals of slot j; no intervals if too many refits failed.
