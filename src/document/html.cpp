@@ -257,7 +257,8 @@ struct HtmlBlock {
   }
   std::string operator()(const Formula& formula) const {
     return fmt::format(
-        "<p class=\"formula\"><math display=\"block\" alttext=\"{}\">{}</math></p>\n",
+        "<p class=\"formula\" tabindex=\"0\"><math display=\"block\" "
+        "alttext=\"{}\">{}</math></p>\n",
         escape_html(formula.text), formula.mathml);
   }
   std::string operator()(const Remark& remark) const {

@@ -35,7 +35,7 @@ p, ul { max-width: 48rem; }
 .summary { font-size: 1.08rem; }
 sub { line-height: 0; }
 code { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: .86em; }
-nav { font-size: .92rem; margin: .75rem 0; }
+nav { font-size: .92rem; line-height: 1.8; margin: .75rem 0; }
 nav a { margin-right: 1rem; display: inline-block; }
 .banner { display: flex; flex-wrap: wrap; gap: .25rem .9rem; align-items: baseline;
   border-left: .3rem solid var(--accent); background: var(--card); padding: .7rem 1rem;

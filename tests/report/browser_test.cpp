@@ -87,15 +87,28 @@ TEST_F(Browser, ShowsAllFigures) {
             "print: 6 drawn figures, at least 11 expected\n");
 }
 
+/// A page whose list of contents takes several lines.
+std::string page_of_many_sections() {
+  Document document{.title = "Many sections", .heading = "Many sections"};
+  for (int k = 1; k <= 15; ++k) {
+    const std::string title = "Table " + std::to_string(k) + ": constants";
+    document.sections.push_back(
+        {.id = "table-" + std::to_string(k), .title = title, .blocks = {Paragraph{"None."}}});
+  }
+  return html_page(document);
+}
+
 TEST_F(Browser, ShowsNothingThatAxeFinds) {
   const fs::path axe = fs::path(RECOIL_SOURCE_DIR) / "build" / "axe" / "axe.min.js";
   if (!fs::exists(axe)) GTEST_SKIP() << "./run test could not fetch axe-core: no network";
   const auto said = complaints({{"page", page_},
                                 {"index", index_},
+                                {"contents", page_of_many_sections()},
                                 {"broken", replaced(page_, "</main>", "<button></button></main>")}},
                                0, {"--axe", axe.string()});
   EXPECT_EQ(said.at("page"), "");
   EXPECT_EQ(said.at("index"), "");
+  EXPECT_EQ(said.at("contents"), "");
   EXPECT_NE(said.at("broken").find("axe button-name"), std::string::npos) << said.at("broken");
 }
 
