@@ -56,15 +56,26 @@ class RowDeviance {
   double estimate_;
 };
 
+/// The part of 1 - level in which the rows of a size may exclude the true V*, all together.
+constexpr double share_of_misses = 0.1;
+
+bool is_of(const Observation& point, const CaptureEstimate& capture) {
+  return point.dataset == capture.dataset && point.diameter == capture.diameter;
+}
+
 }  // namespace
 
 Interval cut_by_rows(Interval interval, const FitResult& fitted, const CaptureEstimate& capture,
                      double level) {
   if (!interval.available() || !(capture.value > 0.0)) return interval;
-  const double most = std::pow(student_quantile(0.5 + level / 2.0, fitted.quantile_dof), 2);
-  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
-    const Observation& point = fitted.data.points[i];
-    if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
+  const auto& points = fitted.data.points;
+  const auto rows = static_cast<double>(std::count_if(
+      points.begin(), points.end(), [&](const auto& point) { return is_of(point, capture); }));
+  const double tail = share_of_misses * (1.0 - level) / rows;  // of one row (Bonferroni)
+  const double most = std::pow(student_quantile(1.0 - tail / 2.0, fitted.quantile_dof), 2);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Observation& point = points[i];
+    if (!is_of(point, capture)) continue;
     const bool rebounds = point.captured < point.events && point.velocity < *interval.upper;
     const bool captures = point.captured > 0 && point.velocity > *interval.lower;
     if (!rebounds && !captures) continue;

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <map>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -55,6 +57,40 @@ TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
     EXPECT_FALSE(shows_results(file)) << file;
   }
   EXPECT_TRUE(shows_results("tests/validation/studies/a_page.cpp"));
+}
+
+// From the sources of a study, along their includes and the sources of what they include.
+TEST(Studies, ReachNothingThatIsApartFromThem) {
+  const std::regex include("#include \"([^\"]+)\"");
+  const std::map<std::string, std::vector<std::string>> first = {
+      {"coverage-grid",
+       {"coverage_study", "coverage_grid", "coverage_noise", "bent_truth", "independent_coverage"}},
+      {"posterior-ranks", {"rank_study"}}};
+  for (const auto& [command, names] : first) {
+    std::set<fs::path> seen;
+    std::vector<fs::path> next;
+    for (const std::string& name : names)
+      next.push_back("tests/validation/studies/" + name + ".cpp");
+    while (!next.empty()) {
+      const fs::path file = next.back();
+      next.pop_back();
+      if (!fs::exists(source_root / file) || shows_results(file) || !seen.insert(file).second)
+        continue;
+      EXPECT_FALSE(is_apart(file, command)) << command << " reaches " << file;
+      const std::string text = read_text_file(source_root / file);
+      for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
+        for (const char* root : {"src/", "tests/"}) {
+          const fs::path header = root + (*at)[1].str();
+          next.push_back(header);
+          next.push_back(fs::path(header).replace_extension(".cpp"));
+        }
+      }
+    }
+    EXPECT_TRUE(seen.contains("src/estimate/fit.cpp")) << command;
+  }
+  for (const char* command : {"hidden-effects", "pairing"}) {
+    EXPECT_FALSE(is_apart("src/diagnosis/diagnose.cpp", command)) << command;
+  }
 }
 
 TEST_F(Tree, TheKeyChangesWithCodeAndNotWithItsComments) {

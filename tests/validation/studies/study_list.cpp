@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <initializer_list>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -50,6 +50,12 @@ std::string digest(const fs::path& root, const fs::path& file) {
   const std::string text = read_text_file(file);
   return fs::relative(file, root).generic_string() + " " +
          sha256_hex(is_code ? code_of(text) : text) + "\n";
+}
+
+bool starts_with_one(const fs::path& source, std::initializer_list<std::string_view> starts) {
+  const std::string text = source.generic_string();
+  return std::any_of(starts.begin(), starts.end(),
+                     [&](std::string_view start) { return text.starts_with(start); });
 }
 
 template <class Chosen>
@@ -124,20 +130,25 @@ std::string code_of(std::string_view source) {
 }
 
 bool shows_results(const fs::path& source) {
-  const std::string text = source.generic_string();
   const std::string name = source.stem().string();
-  constexpr std::array<std::string_view, 5> folders = {"src/document/", "src/plot/", "src/report/",
-                                                       "src/cli/", "src/python/"};
-  return std::any_of(folders.begin(), folders.end(),
-                     [&](std::string_view folder) { return text.starts_with(folder); }) ||
+  return starts_with_one(
+             source, {"src/document/", "src/plot/", "src/report/", "src/cli/", "src/python/"}) ||
          name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture");
+}
+
+bool is_apart(const fs::path& source, const std::string& command) {
+  const bool covers = command.starts_with("coverage") || command.starts_with("posterior-ranks");
+  return covers && starts_with_one(source, {"src/diagnosis/", "tests/validation/studies/hidden_",
+                                            "tests/validation/studies/diagnosis_"});
 }
 
 std::string study_key(const fs::path& root, const std::string& command) {
   std::vector<fs::path> files;
   for (const char* sources : {"src", "tests/validation"}) {
-    add_files(files, root / sources,
-              [&](const fs::path& file) { return !shows_results(fs::relative(file, root)); });
+    add_files(files, root / sources, [&](const fs::path& file) {
+      const fs::path source = fs::relative(file, root);
+      return !shows_results(source) && !is_apart(source, command);
+    });
   }
   add_files(files, root / "fits", [](const fs::path& file) { return file.extension() == ".toml"; });
   add_files(files, root / "datasets", [](const fs::path&) { return true; });

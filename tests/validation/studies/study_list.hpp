@@ -24,7 +24,8 @@ const std::vector<Study>& all_studies();
 const Study& study_named(const std::string& name);
 
 /// Changes with everything that a study's numbers depend on: the command, the fits, the data, and
-/// the code below `root`/src and `root`/tests/validation that does not only show results.
+/// the code below `root`/src and `root`/tests/validation that neither only shows results nor is
+/// apart from the study.
 std::string study_key(const std::filesystem::path& root, const std::string& command);
 
 /// C++ source without comments (`//`) and without the white space that has no meaning.
@@ -32,6 +33,10 @@ std::string code_of(std::string_view source);
 
 /// Does this file, a path from the project's folder, only show results that others compute?
 bool shows_results(const std::filesystem::path& source);
+
+/// Does this file decide nothing in the studies of this command? Studies of coverage diagnose
+/// nothing.
+bool is_apart(const std::filesystem::path& source, const std::string& command);
 
 enum class StudyState {
   missing,
