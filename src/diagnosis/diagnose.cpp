@@ -379,13 +379,55 @@ bool law_errors_suffice(const SearchBase& base) {
          quick_p_value(base, base.refit) > base.options.level;
 }
 
+/// The first causes that experiments shall tell apart.
+std::vector<const CandidateResult*> first_of(std::vector<const CandidateResult*> causes) {
+  constexpr std::size_t most_causes = 3;
+  causes.resize(std::min(causes.size(), most_causes));
+  return causes;
+}
+
+/// Experiments that tell these causes from each other and from an error of the laws.
+NextExperiments experiments_against_law_error(const SearchBase& base,
+                                              std::vector<CandidateResult> causes) {
+  CandidateResult none;  // its criterion is the zero of the others
+  none.candidate = base.candidate;
+  none.refit = base.refit;
+  causes.push_back(std::move(none));
+  std::ranges::stable_sort(causes, {}, &CandidateResult::delta_aicc);
+  std::vector<const CandidateResult*> rivals;
+  for (const CandidateResult& one : causes) rivals.push_back(&one);
+  return next_experiments(base, rivals);
+}
+
+/// The answer if an error of the laws explains the structure: the possible causes that explain it
+/// better than no error, if there are any, are its rivals.
+DiagnosisAnswer with_law_error(const SearchBase& base,
+                               const std::vector<IntervalSet>& base_intervals, double margin,
+                               Diagnosis& diagnosis) {
+  const std::vector<const CandidateResult*> close =
+      best_where(may_act, diagnosis.candidates, margin);
+  if (close.empty()) return Adequate{};
+  NotSeparable answer;
+  answer.law_error = true;
+  answer.rivals = ids_of(close);
+  answer.extended = extended_by(*close.front(), base, base_intervals);
+  if (!base.options.answer_alone) {
+    std::vector<CandidateResult> causes;
+    for (const CandidateResult* cause : first_of(close)) causes.push_back(*cause);
+    diagnosis.next = experiments_against_law_error(base, std::move(causes));
+  }
+  return answer;
+}
+
 /// The answer if no cause explains the structure.
-DiagnosisAnswer without_a_cause(const SearchBase& base, const Diagnosis& diagnosis, double margin) {
+DiagnosisAnswer without_a_cause(const SearchBase& base,
+                                const std::vector<IntervalSet>& base_intervals, double margin,
+                                Diagnosis& diagnosis) {
   const std::vector<CandidateResult>& candidates = diagnosis.candidates;
   const auto impossible = std::ranges::find_if(candidates, only_resembles);
   const bool has_impossible = impossible != candidates.end();
   if (law_errors_suffice(base) && !(has_impossible && impossible->delta_aicc < -margin)) {
-    return Adequate{};
+    return with_law_error(base, base_intervals, margin, diagnosis);
   }
   if (!has_impossible ||
       plausible_cause_fits_as_well(candidates, *impossible, base.options.chance)) {
@@ -423,7 +465,7 @@ DiagnosisAnswer search(const SearchBase& base, const Eigen::MatrixXd& simulated,
   // An error of the laws is the simpler answer unless a cause is clearly better.
   const bool clearly = !found.empty() && found.front()->delta_aicc < -margin;
   if (nothing_explains(found) || (!clearly && law_errors_suffice(base))) {
-    return without_a_cause(base, diagnosis, margin);
+    return without_a_cause(base, base_intervals, margin, diagnosis);
   }
   const CandidateResult& best = *found.front();
   if (errors_fit_better(best, diagnosis, margin)) return ErrorsTooSmall{best.candidate.name()};
@@ -474,22 +516,13 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
 /// @param close those causes, as exact laws fit them
 NextExperiments experiments_on_a_hint(const SearchBase& allowed,
                                       const std::vector<const CandidateResult*>& close) {
-  constexpr std::size_t most_causes = 3;
   std::vector<CandidateResult> causes;
-  for (const CandidateResult* cause : close) {
-    if (causes.size() == most_causes) break;
+  for (const CandidateResult* cause : first_of(close)) {
     causes.push_back(try_one(allowed, cause->candidate, cause->refit.theta, 0));
     if (!causes.back().refit.usable) causes.pop_back();
   }
   if (causes.empty()) return {};
-  CandidateResult base;  // its criterion is the zero of the others
-  base.candidate = allowed.candidate;
-  base.refit = allowed.refit;
-  causes.push_back(std::move(base));
-  std::ranges::stable_sort(causes, {}, &CandidateResult::delta_aicc);
-  std::vector<const CandidateResult*> rivals;
-  for (const CandidateResult& one : causes) rivals.push_back(&one);
-  return next_experiments(allowed, rivals);
+  return experiments_against_law_error(allowed, std::move(causes));
 }
 
 /// Adds what exact laws leave and, if it has structure, the answer of steps 1 to 5 with them for
@@ -509,7 +542,10 @@ void add_exact_answer(const SearchBase& allowed, Diagnosis& diagnosis) {
   found.p_value = quick_p_value(base, base.refit);
   if (found.p_value > options.level) return;
   const Diagnosis exact = diagnose_all(base, {});
-  const bool law_error_competes = diagnosis.answer_if<Adequate>() && !diagnosis.candidates.empty();
+  const auto* const several = diagnosis.answer_if<NotSeparable>();
+  const bool law_error_competes =
+      !diagnosis.candidates.empty() &&
+      (diagnosis.answer_if<Adequate>() || (several && several->law_error));
   const std::vector<CandidateResult>& candidates =
       law_error_competes ? diagnosis.candidates : exact.candidates;
   const double margin = has_one_size(base.fitted.data) ? margin_at_one_size : options.margin;

@@ -105,7 +105,8 @@ struct ExtendedModel {
   std::vector<CaptureChange> capture;
 };
 
-/// The answers of a diagnosis. Adequate: the base model leaves no structure.
+/// The answers of a diagnosis. Adequate: the base model leaves no structure, or an error of the laws
+/// explains it and no possible cause does as well.
 struct Adequate {
   std::optional<MaterialsExplain> materials;  ///< if the errors of the constants matter
 };
@@ -122,6 +123,7 @@ struct NotSeparable {
   std::vector<std::string> alone;   ///< if the best is a pair: single causes that are close
   std::vector<std::string> common;  ///< the causes in all of them
   std::string shared_cause;         ///< the cause of which all rivals are laws; empty: none
+  bool law_error = false;           ///< an error of the laws explains as much as any of them
 };
 
 /// The residuals have the shape of these causes, which fit best but are implausible, or cannot be

@@ -217,8 +217,8 @@ struct DiagnosisFile {
     (SeriesDifferEntry, series_differ, about_series_differ),
     (OrNull<FitFile::ModelVerdictFound>, model_verdict, "whether the model describes the points: the same as "
      "in fit.json"),
-    (Verdict, verdict, "what the diagnosis found: `adequate` (no structure in the residuals, or none "
-     "that needs a cause), `cause_named`, `not_separable` or `unexplained`"),
+    (Verdict, verdict, "what the diagnosis found: `adequate` (no structure in the residuals, or an "
+     "error of the laws explains it better than any cause), `cause_named`, `not_separable` or `unexplained`"),
     (std::string, headline, "the verdict on the model and the cause, in one line"),
     (std::string, text, "the answer in one paragraph"),
     (Misfit, misfit, "what the base model leaves"),
@@ -230,8 +230,8 @@ struct DiagnosisFile {
     (OrNull<Exact>, if_exact, "the answer for exact laws and single causes; null if a cause is named "
      "without them"),
     (Strings, named, "ids of the named mechanisms; two if both act at once"),
-    (Strings, rivals, "ids that the data cannot distinguish from the named one; for an adequate "
-     "model `materials_within_errors`, if exact materials would leave structure"),
+    (Strings, rivals, "ids that the data cannot distinguish from the named one; `law_error` if an "
+     "error of the laws explains as much as they do; for an adequate model `materials_within_errors`, if exact materials would leave structure"),
     (Strings, resembles, "ids of the mechanisms that fit best but are impossible, or cannot be "
      "distinguished from an unknown law of size; then no cause is named"),
     (Strings, in_every_explanation, "if two causes act at once: those in every explanation"),

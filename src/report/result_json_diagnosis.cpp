@@ -187,6 +187,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   if (const auto* several = d.answer_if<NotSeparable>()) {
     out.in_every_explanation = several->common;
+    if (several->law_error) out.rivals.emplace_back(law_error_as_rival);
     if (!several->shared_cause.empty()) out.shared_cause = several->shared_cause;
   }
   out.candidates = candidates_of(d.candidates, d.candidates.size());

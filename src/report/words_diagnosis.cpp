@@ -89,6 +89,10 @@ std::string cause_words(const std::vector<std::string>& ids, const char* between
 namespace {
 
 std::string cause_of(const NotSeparable& d, const std::string& lead) {
+  if (d.law_error) {
+    return fmt::format("An error of the laws, or a cause that these data cannot tell from it: {}",
+                       cause_words(d.rivals, " or "));
+  }
   if (!d.shared_cause.empty()) {
     return fmt::format("{}: {}, by one of several laws ({})", lead, d.shared_cause,
                        cause_words(d.rivals));

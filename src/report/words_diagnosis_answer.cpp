@@ -8,6 +8,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "document/sentence.hpp"
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
@@ -262,10 +263,18 @@ std::string misfit_words(const Diagnosis& d) {
 
 /// What the data can decide about several possible causes.
 std::string several_words(const Diagnosis& d, const NotSeparable& several) {
+  std::string text;
+  if (several.law_error) {
+    text = fmt::format(
+        "An error of the losses of more than {:.0f} % explains this as well as any cause does: {}.",
+        100.0 * least_law_error, cause_words(several.rivals, " or "));
+  }
   if (has_one_size(d.base.data)) {
-    return "With one diameter, the effect of size is unknown, and causes differ mainly in their "
+    return text + (text.empty() ? "" : " ") +
+           "With one diameter, the effect of size is unknown, and causes differ mainly in their "
            "effect of size.";
   }
+  if (several.law_error) return text;
   if (!several.shared_cause.empty()) return "These data cannot decide which of its laws holds.";
   const Candidate& best = several.extended.cause.candidate;
   if (!several.alone.empty()) {
@@ -401,11 +410,10 @@ std::string if_exact_words(const Diagnosis& d) {
                        mechanism_titles(d.if_exact->named, " and "));
   }
   if (!d.answer_if<Adequate>()) return "";
-  const std::vector<std::string>& ids = d.if_exact->listed;
   if (d.structure.p_value <= d.options.level) {
-    return "A smooth error of the laws explains this as well as any cause in the catalogue" +
-           (ids.empty() ? "." : "; the closest: " + cause_words(ids, " or ") + ".");
+    return "A smooth error of the laws explains this better than any cause in the catalogue.";
   }
+  const std::vector<std::string>& ids = d.if_exact->listed;
   return fmt::format("If the laws were exact, structure would remain ({}){}.",
                      p_words(d.if_exact->p_value, quick_samples),
                      ids.empty() ? ", unlike any cause in the catalogue"

@@ -56,6 +56,14 @@ TEST(CauseHeadline, TellsTheCertainFromTheDoubtful) {
             "plastic yield, capillary)");
 }
 
+TEST(CauseHeadline, NamesAnErrorOfTheLawsBesideItsRivals) {
+  NotSeparable several = between({"crack_rate", "gas_film"});
+  several.law_error = true;
+  EXPECT_EQ(cause_headline(answered(several)),
+            "An error of the laws, or a cause that these data cannot tell from it: crack rate or "
+            "gas film");
+}
+
 TEST(CauseHeadline, StaysShortWithManyRivals) {
   const std::string text = cause_headline(answered(between({"a", "b", "c_d", "d", "e", "f", "g"})));
   EXPECT_THAT(text, HasSubstr("a or b or c d or d or e and 2 more"));
