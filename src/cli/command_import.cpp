@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
+#include "core/units.hpp"
 #include "data/ball_table.hpp"
 #include "data/contact.hpp"
 #include "data/limits.hpp"
@@ -137,6 +138,14 @@ double set_ball(const GivenOptions& given, ImportRequest& request) {
   const double size = diameter.value_or(any_size);
   request.diameters = {fmt::format("{:.17g}m", size)};
   if (mass) density = *mass / sphere_mass(size, 1.0);
+  constexpr double lightest = 2.0;  // [kg/m3], of a hollow ball: more than air
+  if (mass && diameter && !(density > lightest && density < limits::density.upper)) {
+    throw InputError({},
+                     fmt::format("a ball of {:.4g} mm and {:.4g} kg has a density of {:.2g} kg/m3",
+                                 size / units::mm, *mass, density),
+                     fmt::format("balls have {:g} to {:g} kg/m3", lightest, limits::density.upper),
+                     "check --diameter, and give --mass in kg: 2.7 g is 0.0027");
+  }
   return density > 0.0 ? density : limits::density.upper;
 }
 

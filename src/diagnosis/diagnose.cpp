@@ -101,11 +101,35 @@ std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
   return all;
 }
 
+/// The change of e^2 by every mechanism that a search would try, at its usual strength
+/// [mechanisms][points].
+std::vector<std::vector<double>> effect_shapes(const SearchBase& base) {
+  std::vector<std::vector<double>> shapes;
+  for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
+    if (mechanism->info.kind == MechanismKind::description) continue;
+    const Candidate candidate =
+        make_candidate(base.spec, base.datasets, {std::string(mechanism->info.id)});
+    const ImpactModel& model = candidate.model;
+    const std::vector<double> with = carried_over(base.candidate.model, base.refit.theta, model);
+    const std::vector<Prediction> acted = predict(model, with, candidate.impacts, false);
+    const std::vector<Prediction> plain =
+        predict(model, without_mechanism(model, with, *mechanism), candidate.impacts, false);
+    std::vector<double> change(acted.size(), 0.0);
+    for (std::size_t i = 0; i < change.size(); ++i) {
+      if (acted[i].usable() && plain[i].usable()) {
+        change[i] = acted[i].restitution_squared - plain[i].restitution_squared;
+      }
+    }
+    shapes.push_back(std::move(change));
+  }
+  return shapes;
+}
+
 /// Step 1: tests whether the base model leaves structure.
 /// @return the residuals of the calibrating data sets [points x data sets]
 Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const StructureStatistics statistics(base.fitted.data, base.fitted.weights, base.first,
-                                       base.fitted.prediction_squared);
+                                       base.fitted.prediction_squared, effect_shapes(base));
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
   std::vector<std::optional<std::vector<double>>> answers(count);
   parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {

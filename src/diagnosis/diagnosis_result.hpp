@@ -105,8 +105,8 @@ struct ExtendedModel {
   std::vector<CaptureChange> capture;
 };
 
-/// The answers of a diagnosis. Adequate: the base model leaves no structure, or an error of the laws
-/// explains it and no possible cause does as well.
+/// The answers of a diagnosis. Adequate: the base model leaves no structure, or an error of the
+/// laws explains it and no possible cause does as well.
 struct Adequate {
   std::optional<MaterialsExplain> materials;  ///< if the errors of the constants matter
 };

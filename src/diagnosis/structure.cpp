@@ -87,7 +87,8 @@ Eigen::MatrixXd parts_along(const Eigen::MatrixXd& samples,
 }  // namespace
 
 StructureStatistics::StructureStatistics(const Observations& data, const Weights& weights,
-                                         const Refit& fitted, std::span<const double> predicted)
+                                         const Refit& fitted, std::span<const double> predicted,
+                                         const std::vector<std::vector<double>>& shapes)
     : stated_(data.noise.sd_stated),
       noise_known_(weights.noise.known),
       slopes_(data.points.size()),
@@ -120,6 +121,11 @@ StructureStatistics::StructureStatistics(const Observations& data, const Weights
   }
   add_local_functions(data);
   add_global_functions(data);
+  for (const std::vector<double>& shape : shapes) {
+    std::vector<Column> own;
+    take(shape, own);
+    if (!own.empty()) causes_.push_back(std::move(own.front()));
+  }
 }
 
 bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column>& against) const {
@@ -266,6 +272,8 @@ bool StructureStatistics::asks(StructureQuestion question) const {
     }
     case StructureQuestion::smooth:
       return !smooth_.empty();
+    case StructureQuestion::cause:
+      return !causes_.empty();
   }
   return false;
 }
@@ -326,6 +334,13 @@ std::vector<PerValue<StructureQuestion, double>> StructureStatistics::operator()
   take(StructureQuestion::capture, squares_along(capture_));
   take(StructureQuestion::runs, runs);
   take(StructureQuestion::smooth, smooth);
+  Eigen::ArrayXd cause = Eigen::ArrayXd::Zero(r.rows());
+  if (!causes_.empty()) {
+    const Eigen::ArrayXXd exponents = 0.25 * parts_along(r, causes_).array().square();
+    const Eigen::ArrayXd most = exponents.rowwise().maxCoeff();
+    cause = most + (exponents.colwise() - most).exp().rowwise().mean().log();
+  }
+  take(StructureQuestion::cause, cause);
   return answers;
 }
 
@@ -371,6 +386,8 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
   const PerValue<StructureQuestion, double> own = statistics(observed);
   std::vector<double> smallest(simulated.size(), 1.0);
   double smallest_own = 1.0;
+  const auto asked = std::ranges::count_if(
+      values_of<StructureQuestion>(), [&](StructureQuestion one) { return statistics.asks(one); });
   for (const StructureQuestion question : values_of<StructureQuestion>()) {
     if (!statistics.asks(question)) continue;
     std::vector<double> sorted;
@@ -378,9 +395,11 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
     std::ranges::sort(sorted);
     const double p = upper_share(sorted, own[question]);
     judged.tests.push_back({question, own[question], p});
-    smallest_own = std::min(smallest_own, p);
+    const bool half = question == StructureQuestion::cause && asked > 1;
+    const double share = half ? static_cast<double>(asked - 1) : 1.0;  // of the level
+    smallest_own = std::min(smallest_own, p / share);
     for (std::size_t b = 0; b < simulated.size(); ++b) {
-      smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][question]));
+      smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][question]) / share);
     }
     if (question != StructureQuestion::scatter && p <= 0.01) judged.smooth = true;
   }

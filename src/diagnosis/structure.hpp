@@ -15,9 +15,18 @@ namespace recoil {
 using Samples = std::vector<std::vector<double>>;  ///< residuals of many data sets
 
 /// A test of the residuals, see `StructureStatistics`.
-enum class StructureQuestion { scatter, size, trend, curvature, capture, runs, smooth };
+enum class StructureQuestion {
+  scatter,
+  size,
+  trend,
+  curvature,
+  capture,
+  runs,
+  smooth,
+  cause,
+};
 constexpr auto names_of_values(StructureQuestion) {
-  return name_list("scatter", "size", "trend", "curvature", "capture", "runs", "smooth");
+  return name_list("scatter", "size", "trend", "curvature", "capture", "runs", "smooth", "cause");
 }
 
 /// The result of one test.
@@ -30,10 +39,12 @@ struct StructureTest {
 /// The systematic structure in the residuals of a fit.
 struct Structure {
   std::vector<StructureTest> tests;
-  double p_value = 1.0;  ///< of the most significant test, corrected for multiple tests
-  int simulated = 0;     ///< number of calibrating data sets
-  int failed = 0;        ///< number of these without a fit
-  bool smooth = false;   ///< true: in the shape of the residuals; false: only in their size
+  /// Of the most significant test, corrected for multiple tests: the one for causes has half of the
+  /// level, the others share the rest.
+  double p_value = 1.0;
+  int simulated = 0;    ///< number of calibrating data sets
+  int failed = 0;       ///< number of these without a fit
+  bool smooth = false;  ///< true: in the shape of the residuals; false: only in their size
 };
 
 /// The statistics of `StructureTest`, for residuals in units of their standard deviation, whitened
@@ -48,7 +59,10 @@ struct Structure {
 ///   sign;
 /// - smooth: max over m of (T_m - m) / sqrt(2 m), with T_m the part of sum r^2 along the first m of
 ///   the functions P_j(ln V), P_j(ln V) ln d (j = 0, 1, ...; over all points), which is an adaptive
-///   Neyman test (Fan 1996, J. Am. Stat. Assoc. 91, 674-688).
+///   Neyman test (Fan 1996, J. Am. Stat. Assoc. 91, 674-688);
+/// - cause: ln of the mean over the shapes s of exp((s . r)^2 / 4), the effects of the causes that
+/// a
+///   search would try: sqrt(2) times the Bayes factor for an effect of N(0, 1) standard errors.
 /// A function is a discrepancy of e^2, weighted like the residuals; residuals of the same velocity
 /// and size enter through their mean. All functions are made orthogonal to the columns of the fit's
 /// Jacobian, so that they test only deviations that the parameters cannot fit. A test whose
@@ -59,8 +73,10 @@ class StructureStatistics {
   /// @param fitted the fit, whose Jacobian gives the deviations that the parameters can fit
   /// @param predicted e^2 of every point: a point that is captured in the data and in the model
   ///   does not scatter and is omitted
+  /// @param shapes changes of e^2 by single causes [causes][points]
   StructureStatistics(const Observations& data, const Weights& weights, const Refit& fitted,
-                      std::span<const double> predicted);
+                      std::span<const double> predicted,
+                      const std::vector<std::vector<double>>& shapes = {});
 
   PerValue<StructureQuestion, double> operator()(std::span<const double> residuals) const;
   std::vector<PerValue<StructureQuestion, double>> operator()(const Samples& residuals) const;
@@ -99,6 +115,7 @@ class StructureStatistics {
   std::vector<std::vector<std::vector<std::size_t>>> runs_;
   std::vector<Column> size_, trend_, curvature_, capture_;
   std::vector<Column> smooth_;
+  std::vector<Column> causes_;  // not orthogonal to each other
 };
 
 /// Computes p-values by comparison with simulated data sets: of each test, and of the smallest of

@@ -43,7 +43,8 @@ std::string words_of(StructureQuestion question) {
       {curvature, "residuals bend with velocity"},
       {capture, "the slowest points lie above or below the model"},
       {runs, "neighbouring points miss on the same side"},
-      {smooth, "a smooth function of velocity and size describes the residuals"}};
+      {smooth, "a smooth function of velocity and size describes the residuals"},
+      {cause, "the residuals have the shape of a cause in the catalogue"}};
   return phrase_for(phrases, question).words;
 }
 

@@ -317,4 +317,19 @@ TEST(BouncedFraction, GivesLimitsWhereNothingIsCapturedInPart) {
   EXPECT_EQ(both["upper_limit"], 2.0);
 }
 
+/// A steel bead of 6 mm has 0.88 g.
+TEST(Bounce, RefusesAMassThatNoBallOfThisSizeHas) {
+  const Workplace place;
+  place.write("drops.csv", "h1,h2\n0.81,0.64\n0.4,0.33\n");
+  const auto bounce = [&](const char* mass) {
+    return place.run({"bounce", "drops.csv", "--format", "heights", "--map",
+                      "drop_height=h1:m,rebound_height=h2:m", "--diameter", "6mm", "--mass", mass});
+  };
+  const Outcome grams = bounce("0.88");
+  EXPECT_EQ(grams.status, 2);
+  EXPECT_THAT(grams.err, AllOf(HasSubstr("a density of 7.8e+06 kg/m3"), HasSubstr("--mass in kg")));
+  EXPECT_EQ(bounce("0.00088").status, 0) << bounce("0.00088").err;
+  EXPECT_EQ(bounce("1e-9").status, 2);
+}
+
 }  // namespace

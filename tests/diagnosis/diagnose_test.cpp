@@ -86,38 +86,6 @@ TEST(Diagnose, NamesNothingAtOneSize) {
   EXPECT_EQ(several ? several->shared_cause : "", "");
 }
 
-/// Points of one size: a velocimeter that reads `offset` [m/s] too much, both ways.
-Dataset one_size_with_offset(unsigned seed, double offset) {
-  Dataset data = noisy(seed, 0.004, [offset](const ImpactPoint& point, double e) {
-    const double V = point.incident_velocity;
-    return (e * (V - offset) + offset) / V;
-  });
-  std::erase_if(data.points, [](const ImpactPoint& point) { return point.series != 2; });
-  return data;
-}
-
-/// An error of the laws of more than 3 % is as likely as the cause, but neither is certain.
-TEST(Diagnose, ListsTheCauseAtOneSizeBesideAnErrorOfTheLaws) {
-  int both = 0;
-  for (const double offset : {0.0, 0.15, 0.2, 0.25}) {
-    for (unsigned seed = 1; seed <= 3; ++seed) {
-      const Diagnosis found =
-          diagnose(synthetic::spec(), {one_size_with_offset(seed, offset)}, quick());
-      const auto* several = found.answer_if<NotSeparable>();
-      std::printf("%g %u: %s%s, p %.4f\n", offset, seed,
-                  std::string(name_of(found.verdict())).c_str(),
-                  several && several->law_error ? " law" : "", found.structure.p_value);
-      if (found.structure.p_value > found.options.level) continue;
-      if (several == nullptr || !several->law_error) continue;
-      ++both;
-      EXPECT_TRUE(std::ranges::count(several->rivals, "velocity_offset")) << offset;
-      EXPECT_EQ(several->shared_cause, "");
-      EXPECT_TRUE(several->common.empty());
-    }
-  }
-  EXPECT_GT(both, 0);
-}
-
 TEST(Diagnose, OffsetsThatRunSmoothlyWithSizeAreNoBatch) {
   // e lower by a smooth function of the diameter that no mechanism of the catalogue makes.
   const Diagnosis found = diagnose(synthetic::spec(),

@@ -41,7 +41,9 @@ struct Case {
     fitted.jacobian.assign(data.points.size(), 1.0);
     predicted.assign(data.points.size(), 0.49);
   }
-  StructureStatistics statistics() const { return {data, weights, fitted, predicted}; }
+  StructureStatistics statistics(const std::vector<std::vector<double>>& shapes = {}) const {
+    return {data, weights, fitted, predicted, shapes};
+  }
 };
 
 std::vector<double> noise(std::mt19937& random) {
@@ -115,6 +117,56 @@ TEST(Structure, SeesAWaveInTheLogarithmOfTheVelocity) {
   EXPECT_LE(p_of(found, StructureQuestion::smooth), 0.01);
   EXPECT_LE(found.p_value, 0.02);
   EXPECT_TRUE(found.smooth);
+}
+
+/// Twenty shapes, one for each cause: a bend of one size below or above a velocity.
+std::vector<std::vector<double>> bends() {
+  std::vector<std::vector<double>> shapes;
+  for (std::size_t k = 0; k < 20; ++k) {
+    std::vector<double> shape(sizes * speeds, 0.0);
+    const std::size_t from = 2 + k / 6;
+    for (std::size_t v = 0; v < speeds; ++v) {
+      const bool slow = k % 2 == 0;
+      const std::size_t place = slow ? speeds - 1 - v : v;
+      const double beyond = static_cast<double>(place) - static_cast<double>(speeds - from);
+      if (beyond >= 0.0) shape[(k / 2 % sizes) * speeds + v] = 1.0 + beyond;
+    }
+    shapes.push_back(shape);
+  }
+  return shapes;
+}
+
+/// The p-value of residuals [points], calibrated on white noise, with the shapes of causes or not.
+double p_with(const std::vector<double>& residuals, const std::vector<std::vector<double>>& shapes,
+              std::uint64_t seed) {
+  const Case made;
+  const StructureStatistics statistics = made.statistics(shapes);
+  return judge_structure(statistics, statistics.residuals_of_noise({residuals}).front(),
+                         statistics(statistics.residuals_of_noise(
+                             white_noise(199, made.data.points.size(), seed))))
+      .p_value;
+}
+
+TEST(Structure, SeesTheShapeOfACauseThatNoOtherTestSees) {
+  std::mt19937 random(21);
+  constexpr int cases = 200;
+  const std::vector<std::vector<double>> shapes = bends();
+  int accused = 0, seen = 0, seen_without = 0;
+  for (int k = 0; k < cases; ++k) {
+    std::vector<double> r = noise(random);
+    const auto seed = static_cast<std::uint64_t>(k);
+    accused += p_with(r, shapes, seed) <= 0.05 ? 1 : 0;
+    const std::vector<double>& shape = shapes[static_cast<std::size_t>(k) % shapes.size()];
+    double length = 0.0;
+    for (const double value : shape) length += value * value;
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += 4.5 * shape[i] / std::sqrt(length);
+    seen += p_with(r, shapes, seed) <= 0.05 ? 1 : 0;
+    seen_without += p_with(r, {}, seed) <= 0.05 ? 1 : 0;
+  }
+  std::printf("of %d: noise accused %d, shapes seen %d, without the shapes %d\n", cases, accused,
+              seen, seen_without);
+  EXPECT_LE(accused, 20);  // binomial with 5 %: more has a chance of 1 in 400
+  EXPECT_GT(seen, seen_without + cases / 10);
 }
 
 TEST(Structure, TellsLargeScatterFromShape) {

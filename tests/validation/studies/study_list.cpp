@@ -137,8 +137,10 @@ bool shows_results(const fs::path& source) {
 }
 
 bool is_apart(const fs::path& source, const std::string& command) {
+  if (starts_with_one(source, {"tests/validation/studies/study_list."})) return true;
   const bool covers = command.starts_with("coverage") || command.starts_with("posterior-ranks");
-  return covers && starts_with_one(source, {"src/diagnosis/", "tests/validation/studies/hidden_",
+  return covers && starts_with_one(source, {"src/diagnosis/", "src/json/diagnosis_",
+                                            "tests/validation/studies/hidden_",
                                             "tests/validation/studies/diagnosis_"});
 }
 

@@ -34,8 +34,8 @@ std::string code_of(std::string_view source);
 /// Does this file, a path from the project's folder, only show results that others compute?
 bool shows_results(const std::filesystem::path& source);
 
-/// Does this file decide nothing in the studies of this command? Studies of coverage diagnose
-/// nothing.
+/// Does this file decide nothing in the studies of this command? The list of studies decides
+/// nothing (the command is part of the key), and studies of coverage diagnose nothing.
 bool is_apart(const std::filesystem::path& source, const std::string& command);
 
 enum class StudyState {
