@@ -266,8 +266,8 @@ std::string several_words(const Diagnosis& d, const NotSeparable& several) {
   std::string text;
   if (several.law_error) {
     text = fmt::format(
-        "An error of the losses of more than {:.0f} % explains this as well as any cause does: {}.",
-        100.0 * least_law_error, cause_words(several.rivals, " or "));
+        "An error of the losses of more than {:.0f} % explains this as well as any of them does.",
+        100.0 * least_law_error);
   }
   if (has_one_size(d.base.data)) {
     return text + (text.empty() ? "" : " ") +
