@@ -52,11 +52,12 @@ constexpr MaterialConstant constants[] = {{"density", Dimension::density},
                                           {"diameter", Dimension::length},
                                           {"temperature", Dimension::temperature}};
 
-/// A material from "material=steel,density=7900,...", from a JSON file, or from a name of the
-/// table, "steel,density=7900".
+/// A material from "material=steel,density=7900,...", from a name of the table,
+/// "steel,density=7900" (whatever is called like it in the working folder), or from a JSON file.
 Json material(const std::string& words, const std::string& option) {
   std::error_code failed;
-  if (std::filesystem::exists(words, failed) || words.ends_with(".json")) {
+  if (words.ends_with(".json") ||
+      (source_of_tabled(words).empty() && std::filesystem::is_regular_file(words, failed))) {
     return parse_object(read_text_file(words), words);
   }
   Json json;
@@ -398,12 +399,10 @@ std::string imported_package(const ImportRequest& request, const Json& system,
   for (const auto& [body, words] :
        {std::pair{"sphere", &request.particle}, std::pair{"surface", &request.surface}}) {
     const std::vector<std::string> parts = split_list(*words);
-    const bool named =
-        !parts.empty() && !split_pair(parts.front()) && !parts.front().ends_with(".json");
-    if (!named) continue;
+    const std::string_view source = parts.empty() ? "" : source_of_tabled(parts.front());
+    if (source.empty()) continue;
     package["sources"].push_back(
-        {{"title", fmt::format("{}. Constants of the {}, {}.", source_of_tabled(parts.front()),
-                               body, parts.front())}});
+        {{"title", fmt::format("{}. Constants of the {}, {}.", source, body, parts.front())}});
   }
   const Json resource =
       csv_resource("points", existing ? existing->points_path : "points.csv", points.fields);

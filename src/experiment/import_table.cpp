@@ -550,7 +550,7 @@ void ImportTable::read_map(const std::string& entry) {
     const auto meant = std::ranges::find_if(known_, [&](const ImportQuantity& q) {
       return q.needed && q.name.ends_with("_" + pair->first);
     });
-    throw InputError({}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
+    throw InputError({file_}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
                      "this format does not have this quantity",
                      did_you_mean(meant == known_.end() ? pair->first : meant->name, names));
   }

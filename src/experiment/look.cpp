@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -62,16 +63,26 @@ ImportFormat format_of(const ImportRequest& asked) {
   std::vector<ImportFormat> fitting;
   std::vector<ImportFormat> lacking;  // an option, not a column
   std::vector<InputError> errors;
+  std::map<ImportFormat, InputError> refusals;
   for (const ImportFormat format : values_of<ImportFormat>()) {
     if (format == ImportFormat::webplotdigitizer || format == ImportFormat::recording) continue;
     request.format = format;
     const std::optional<InputError> error = refusal(request);
+    if (error) refusals.emplace(format, *error);
     if (!error) {
       fitting.push_back(format);
     } else if (error->where().file.empty()) {
       lacking.push_back(format);
     } else {
       errors.push_back(*error);
+    }
+  }
+  if (fitting.empty()) {
+    const InputError& of_any_table = refusals.at(ImportFormat::csv);
+    if (std::ranges::all_of(refusals, [&](const auto& refusal) {
+          return refusal.second.problem() == of_any_table.problem();
+        })) {
+      throw InputError(of_any_table);  // no format is the reason
     }
   }
   if (fitting.empty()) fitting = lacking;
@@ -91,7 +102,8 @@ ImportFormat format_of(const ImportRequest& asked) {
   if (last->where().line > first->where().line) throw InputError(*last);  // in a row of its format
   throw InputError(
       first->where(), "it is not known what this file holds", first->why(),
-      "state it with --map, as in --map incident_velocity=COLUMN:m/s,restitution=COLUMN or --map "
+      "state it with --map, as in --map incident_velocity=COLUMN:m/s,restitution=COLUMN, --map "
+      "incident_velocity=COLUMN:m/s,rebound_velocity=COLUMN:m/s or --map "
       "drop_height=COLUMN:cm,rebound_height=COLUMN:cm");
 }
 

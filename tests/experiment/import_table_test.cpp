@@ -98,7 +98,10 @@ TEST(Table, UsualNamesNeedNoMap) {
        {"V [m/s],e,d [um]\n2,0.8,5\n", "Vi (cm/s);Vr (cm/s);Diameter (um)\n200;160;5\n",
         "Impact velocity [m/s],COR,particle diameter [mm]\n2,0.8,0.005\n",
         "e\tV\tD\n\tm/s\tum\n0.8\t2\t5\n", "V_in [m/s],e [%],D [um],d50\n2,80,5,7\n",
-        "V [m/s],e,Vr [m/s],d_p [um]\n2,0.8,1.7,5\n"}) {
+        "V [m/s],e,Vr [m/s],d_p [um]\n2,0.8,1.7,5\n",
+        "speed before (cm/s);speed after (cm/s);d (um)\n200;160;5\n",
+        "Velocity before impact [m/s],V_after [m/s],D [um]\n2,1.6,5\n",
+        "speed_in [mm/s],velocity_out [m/s],D [um]\n2000,1.6,5\n"}) {
     SCOPED_TRACE(text);
     auto request = place.request(text, ImportFormat::csv);
     request.into = place.folder() / std::to_string(number++);
@@ -550,6 +553,31 @@ TEST(Materials, ByNameWithErrorsAndSources) {
   request.particle = "polystyren";
   request.into = place.folder() / "other";
   EXPECT_THAT(complaint(request), HasSubstr("did you mean 'polystyrene'?"));
+}
+
+TEST(Materials, AreFoundWhateverIsCalledLikeThemInTheWorkingFolder) {
+  const Place place;
+  place.write("steel/points.csv", "");
+  place.write("Glass", "not JSON");
+  place.write("mine", R"({"material": "mine", "youngs_modulus": 60e9, "poisson_ratio": 0.2})");
+  auto request = place.request(kTable, ImportFormat::csv);
+  request.map = {kMap};
+  request.particle = "steel";
+  request.surface = "Glass";
+  auto own = request;
+  own.surface = "mine";
+  own.into = place.folder() / "own";
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(place.folder());
+  const std::string named = complaint(request);
+  const std::string in_file = complaint(own);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(named, "no error");
+  EXPECT_EQ(in_file, "no error");
+  const Dataset made = recoil::load_dataset(own.into);
+  EXPECT_DOUBLE_EQ(made.system.surface.youngs_modulus, 60e9);
+  // The sources are the test's own and that of the table.
+  EXPECT_EQ(made.sources.size(), 2U);
 }
 
 TEST(Materials, EveryOneOfTheTableIsAccepted) {

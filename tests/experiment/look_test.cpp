@@ -1,16 +1,20 @@
 #include "experiment/look.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "support/mistake.hpp"
 
 namespace {
 
 using recoil::ImportFormat;
 using recoil::ImportRequest;
+using testing::AllOf;
+using testing::HasSubstr;
 
 ImportRequest request_of(const std::string& text, const std::vector<std::string>& map = {}) {
   ImportRequest request;
@@ -24,6 +28,7 @@ TEST(FileLook, FindsTheFormatThatTheColumnsFit) {
   const std::vector<std::pair<std::string, ImportFormat>> files = {
       {"V [m/s],e\n2,0.5\n3,0.6\n", ImportFormat::csv},
       {"incident velocity (cm/s);rebound velocity (cm/s)\n2,5;1,5\n3,5;2,5\n", ImportFormat::csv},
+      {"speed before (cm/s),speed after (cm/s)\n30,24\n60,47\n", ImportFormat::csv},
       {"drop (cm),rebound (cm)\n30,24\n60,47\n", ImportFormat::heights},
       {"t (s),y (m)\n0,1\n0.1,0.95\n0.2,0.8\n0.3,0.56\n", ImportFormat::track},
       {"frame,pixel\n0,100\n1,110\n2,125\n3,150\n", ImportFormat::track},
@@ -46,6 +51,31 @@ TEST(FileLook, NamesNoFormatWhereNoneOrSeveralFit) {
         "drop_height (cm),rebound_height (cm),rest_time (s)\n30,24,5.1\n"}) {
     EXPECT_THROW(recoil::format_of(request_of(text)), recoil::InputError) << text;
   }
+}
+
+TEST(FileLook, SuggestsTheQuantitiesOfSpeedsAndOfHeights) {
+  try {
+    recoil::format_of(request_of("x,y\n2,0.5\n3,0.6\n"));
+    FAIL();
+  } catch (const recoil::InputError& error) {
+    for (const char* quantity : {"restitution", "rebound_velocity", "rebound_height"}) {
+      EXPECT_NE(error.suggestion().find(quantity), std::string::npos) << quantity;
+    }
+  }
+}
+
+// What is mapped says the format: of the others, none can be meant.
+TEST(FileLook, ReportsAMistakeInTheMapItself) {
+  const std::string text = "speed before (cm/s),speed away (cm/s)\n30,24\n60,47\n";
+  const auto refusal = [&](const std::string& map) {
+    return support::message_of([&] { recoil::format_of(request_of(text, {map})); });
+  };
+  EXPECT_THAT(refusal("rebound_velocity=speed awy (cm/s)"),
+              AllOf(HasSubstr("table.csv:1:1: no column is called 'speed awy (cm/s)'"),
+                    HasSubstr("did you mean 'speed away (cm/s)'?")));
+  EXPECT_THAT(refusal("velocity=speed away (cm/s)"),
+              AllOf(HasSubstr("unknown quantity 'velocity'"), HasSubstr("'incident_velocity'")));
+  EXPECT_THAT(refusal("speed away (cm/s)"), HasSubstr("not of the form quantity=column:unit"));
 }
 
 TEST(FileLook, ReportsAMistakeInARowAtItsPlace) {

@@ -59,7 +59,8 @@ TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
   EXPECT_TRUE(shows_results("tests/validation/studies/a_page.cpp"));
 }
 
-// From the sources of a study, along their includes and the sources of what they include.
+// From the sources of a study, along their includes and the sources of what they include: x.cpp
+// beside x.hpp, and x_more.cpp if it has no header of its own.
 TEST(Studies, ReachNothingThatIsApartFromThem) {
   const std::regex include("#include \"([^\"]+)\"");
   const std::map<std::string, std::vector<std::string>> first = {
@@ -81,8 +82,16 @@ TEST(Studies, ReachNothingThatIsApartFromThem) {
       for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
         for (const char* root : {"src/", "tests/"}) {
           const fs::path header = root + (*at)[1].str();
+          if (!fs::exists(source_root / header)) continue;
           next.push_back(header);
-          next.push_back(fs::path(header).replace_extension(".cpp"));
+          for (const auto& entry : fs::directory_iterator(source_root / header.parent_path())) {
+            const std::string beside = entry.path().stem();
+            const std::string stem = header.stem();
+            const bool headed = fs::exists(fs::path(entry).replace_extension(".hpp"));
+            if (beside == stem || (beside.starts_with(stem + "_") && !headed)) {
+              next.push_back(fs::relative(entry.path(), source_root));
+            }
+          }
         }
       }
     }
