@@ -89,7 +89,8 @@ std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   return all;
 }
 
-/// The candidates that decrease AICc or explain the misfit.
+/// The candidates that decrease AICc or explain the misfit. Pairs of which one is enough only repeat
+/// that one.
 Table candidates_table(const Diagnosis& d) {
   Table table;
   table.caption =
@@ -100,7 +101,12 @@ Table candidates_table(const Diagnosis& d) {
                    {"held out"},  {"left"}, {"verdict", "", true}};
   table.compact = true;
   std::size_t others = 0;
+  std::size_t repeated = 0;
   for (const CandidateResult& c : sorted_candidates(d)) {
+    if (c.set_aside == SetAside::one_suffices) {
+      ++repeated;
+      continue;
+    }
     if (c.delta_aicc >= 0.0 && !c.explains()) {
       ++others;
       continue;
@@ -111,6 +117,9 @@ Table candidates_table(const Diagnosis& d) {
          c.gain ? Cell(Number{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
          Number{c.remaining_p, probability()},
          Sentence(c.explains() ? "explains it" : short_set_aside_words(c))});
+  }
+  if (repeated > 0) {
+    table.rows.push_back({say("{} pairs", repeated), {}, {}, {}, {}, "one is enough"});
   }
   if (others > 0) {
     table.rows.push_back({say("{} others", others), {}, {}, {}, {}, "gain too little"});
