@@ -89,8 +89,8 @@ std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   return all;
 }
 
-/// The candidates that decrease AICc or explain the misfit. Pairs of which one is enough only repeat
-/// that one.
+/// The candidates that decrease AICc or explain the misfit. Pairs of which one is enough only
+/// repeat that one.
 Table candidates_table(const Diagnosis& d) {
   Table table;
   table.caption =

@@ -305,14 +305,27 @@ Section citation_section(const Analysis& a) {
       {equation_of(a), Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)});
 }
 
-/// The causes that a diagnosis tried, because a page may travel alone. Its own page has the rest.
+/// `section` with tables of at most `rows` rows. The last row states how many rows are omitted.
+Section shortened(Section section, std::size_t rows) {
+  for (Block& block : section.blocks) {
+    auto* const table = std::get_if<Table>(&block.content());
+    if (table == nullptr || table->rows.size() <= rows) continue;
+    const std::size_t more = table->rows.size() - rows + 1;
+    table->rows.resize(rows - 1);
+    table->rows.push_back({say("{} more", more)});
+  }
+  return section;
+}
+
+/// The best causes that a diagnosis tried, because a page may travel alone. Its own page has the
+/// rest.
 std::vector<Section> folded_diagnosis(const Diagnosis& diagnosis) {
   std::vector<Section> kept;
   for (Section& section : diagnosis_sections(diagnosis)) {
     if (section.id != "causes" || empty(section)) continue;
     section.title = Sentence("Diagnosis: ") + section.title;
     section.id = "diagnosis-" + section.id;
-    kept.push_back(std::move(section));
+    kept.push_back(shortened(std::move(section), 3));
   }
   return kept;
 }
@@ -324,18 +337,6 @@ Section next_section(const Analysis& a) {
                        {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
                                       code("recoil diagnose " + file),
                                       code("recoil report " + file), code("--verbose"))}});
-}
-
-/// `section` with tables of at most `rows` rows. The last row states how many rows are omitted.
-Section shortened(Section section, std::size_t rows) {
-  for (Block& block : section.blocks) {
-    auto* const table = std::get_if<Table>(&block.content());
-    if (table == nullptr || table->rows.size() <= rows) continue;
-    const std::size_t more = table->rows.size() - rows + 1;
-    table->rows.resize(rows - 1);
-    table->rows.push_back({say("{} more", more)});
-  }
-  return section;
 }
 
 }  // namespace

@@ -664,11 +664,14 @@ std::vector<Figure> law_error_figures(const Analysis& analysis) {
     }
     panels.resize(std::min(sizes, most));
     if (panels.empty()) continue;
+    const std::string name = short_name(analysis.datasets, d);
     Sentence caption =
-        say("What the laws get wrong, {}: the loss of energy of every point beyond that of exact "
-            "laws with the fitted constants, {+/-} 1 sd; lines: the error of the laws under its "
-            "likeliest form, with {} bands.",
-            short_name(analysis.datasets, d), percent(analysis.uncertainty.options.level));
+        figures.empty()
+            ? say("What the laws get wrong, {}: the loss of energy of every point beyond that of "
+                  "exact laws with the fitted constants, {+/-} 1 sd; lines: the error of the laws "
+                  "under its likeliest form, with {} bands.",
+                  name, percent(analysis.uncertainty.options.level))
+            : say("What the laws get wrong, {}, as above.", name);
     if (sizes > most) caption += say(" {} of {} sizes.", most, sizes);
     figures.push_back(
         figure_of({.name = fmt::format("law-error-{}", d + 1),
