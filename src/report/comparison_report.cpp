@@ -128,17 +128,21 @@ Sentence dependence_words(const ChoiceDependence& found) {
     return "No quantity has an interval in more than one of the fits.";
   }
   if (found.depends.empty()) return "No quantity depends on the choice: all intervals overlap.";
+  if (found.holds.empty()) {
+    return "Every quantity depends on the choice, as their intervals do not overlap.";
+  }
   const std::size_t all = found.depends.size() + found.holds.size();
-  constexpr std::size_t most_listed = 6;
-  if (found.depends.size() > most_listed && found.holds.size() < found.depends.size()) {
-    const Sentence those = found.holds.empty() ? Sentence("All")
-                                               : say("All but {} ({})", found.holds.size(),
-                                                     joined(found.holds, ", ", quantity_sentence));
-    return say("{} of {} quantities depend on the choice, as their intervals do not overlap.",
-               those, all);
+  const auto listed = [](const std::vector<std::string>& names) {
+    return joined(names, ", ", quantity_sentence);
+  };
+  if (found.holds.size() < found.depends.size()) {
+    return say(
+        "{} of {} quantities depend on the choice, as their intervals do not overlap: all "
+        "but {}.",
+        found.depends.size(), all, listed(found.holds));
   }
   return say("{} of {} quantities depend on the choice, as their intervals do not overlap: {}.",
-             found.depends.size(), all, joined(found.depends, ", ", quantity_sentence));
+             found.depends.size(), all, listed(found.depends));
 }
 
 /// The interval of +- `errors_to_end` standard errors, in ln(value) if `log_scale`.

@@ -89,9 +89,8 @@ std::vector<CandidateResult> sorted_candidates(const Diagnosis& d) {
   return all;
 }
 
-/// The candidates that decrease AICc or explain the misfit. Pairs of which one is enough only
-/// repeat that one.
-Table candidates_table(const Diagnosis& d) {
+/// The candidates that decrease AICc or explain the misfit, the best `most` of them.
+Table candidates_table(const Diagnosis& d, std::size_t most = SIZE_MAX) {
   Table table;
   table.caption =
       say("Mechanisms added to the model, alone or in pairs. Gain: decrease of AICc. {p}: share of "
@@ -100,15 +99,12 @@ Table candidates_table(const Diagnosis& d) {
   table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
                    {"held out"},  {"left"}, {"verdict", "", true}};
   table.compact = true;
+  std::size_t more = 0;
   std::size_t others = 0;
-  std::size_t repeated = 0;
   for (const CandidateResult& c : sorted_candidates(d)) {
-    if (c.set_aside == SetAside::one_suffices) {
-      ++repeated;
-      continue;
-    }
-    if (c.delta_aicc >= 0.0 && !c.explains()) {
-      ++others;
+    const bool gains = c.delta_aicc < 0.0 || c.explains();
+    if (!gains || table.rows.size() == most) {
+      ++(gains ? more : others);
       continue;
     }
     table.rows.push_back(
@@ -118,9 +114,7 @@ Table candidates_table(const Diagnosis& d) {
          Number{c.remaining_p, probability()},
          Sentence(c.explains() ? "explains it" : short_set_aside_words(c))});
   }
-  if (repeated > 0) {
-    table.rows.push_back({say("{} pairs", repeated), {}, {}, {}, {}, "one is enough"});
-  }
+  if (more > 0) table.rows.push_back({say("{} more", more), {}, {}, {}, {}, {}});
   if (others > 0) {
     table.rows.push_back({say("{} others", others), {}, {}, {}, {}, "gain too little"});
   }
@@ -264,6 +258,12 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
                          {list_of_sentences({notes.begin(), notes.end()})})};
 }
 
+Section closest_causes(const Diagnosis& d) {
+  constexpr std::size_t most = 2;
+  return detail_section("diagnosis-causes", "Diagnosis: The closest causes",
+                        {candidates_table(d, most), causes_list(d)});
+}
+
 Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
   std::vector<std::string> sentences = answer_sentences(d);
   if (sentences.size() > summary_sentences) sentences.resize(summary_sentences);
@@ -271,8 +271,7 @@ Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
   const std::string cause = cause_headline(d);
   section.blocks = {Paragraph{(cause.empty() ? Sentence() : strong(cause + ".") + " ") +
                               Sentence(fmt::format("{}", fmt::join(sentences, " ")))}};
-  if (!address.empty())
-    section.blocks.emplace_back(Paragraph{link("The whole diagnosis", address)});
+  if (!address.empty()) section.blocks.emplace_back(Paragraph{link("The closest causes", address)});
   return section;
 }
 

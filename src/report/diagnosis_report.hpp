@@ -22,8 +22,11 @@ std::vector<Figure> before_after_figures(const Diagnosis& diagnosis);
 /// extended model, next experiments and notes.
 std::vector<Section> diagnosis_sections(const Diagnosis& diagnosis);
 
+/// The best candidates, for the page of the fit; empty if none gains.
+Section closest_causes(const Diagnosis& diagnosis);
+
 /// A short answer, for the page of the fit.
-/// @param address of the page of the diagnosis; may be empty
+/// @param address of the closest causes; may be empty
 Section diagnosis_summary(const Diagnosis& diagnosis, const std::string& address = "");
 
 Document diagnosis_document(const Diagnosis& diagnosis);

@@ -305,6 +305,15 @@ Section citation_section(const Analysis& a) {
       {equation_of(a), Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)});
 }
 
+Section next_section(const Analysis& a) {
+  if (a.spec.file.empty()) return {};
+  const std::string file = a.spec.file.generic_string();
+  return shown_section("next", "",
+                       {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
+                                      code("recoil diagnose " + file),
+                                      code("recoil report " + file), code("--verbose"))}});
+}
+
 /// `section` with tables of at most `rows` rows. The last row states how many rows are omitted.
 Section shortened(Section section, std::size_t rows) {
   for (Block& block : section.blocks) {
@@ -315,28 +324,6 @@ Section shortened(Section section, std::size_t rows) {
     table->rows.push_back({say("{} more", more)});
   }
   return section;
-}
-
-/// The best causes that a diagnosis tried, because a page may travel alone. Its own page has the
-/// rest.
-std::vector<Section> folded_diagnosis(const Diagnosis& diagnosis) {
-  std::vector<Section> kept;
-  for (Section& section : diagnosis_sections(diagnosis)) {
-    if (section.id != "causes" || empty(section)) continue;
-    section.title = Sentence("Diagnosis: ") + section.title;
-    section.id = "diagnosis-" + section.id;
-    kept.push_back(shortened(std::move(section), 3));
-  }
-  return kept;
-}
-
-Section next_section(const Analysis& a) {
-  if (a.spec.file.empty()) return {};
-  const std::string file = a.spec.file.generic_string();
-  return shown_section("next", "",
-                       {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
-                                      code("recoil diagnose " + file),
-                                      code("recoil report " + file), code("--verbose"))}});
 }
 
 }  // namespace
@@ -366,11 +353,10 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     sections.push_back(shown_section("calibrations", "Two points and all points",
                                      {two_point_table(a, a.uncertainty.two_point.front())}));
   }
-  std::vector<Section> diagnosed;
-  if (diagnosis != nullptr && !diagnosis_page.empty()) diagnosed = folded_diagnosis(*diagnosis);
+  Section causes;  // on this page, too, because a page may travel alone
   if (diagnosis != nullptr) {
-    const std::string details = diagnosed.empty() ? "" : "#" + diagnosed.front().id;
-    sections.push_back(diagnosis_summary(*diagnosis, details));
+    if (!diagnosis_page.empty()) causes = closest_causes(*diagnosis);
+    sections.push_back(diagnosis_summary(*diagnosis, empty(causes) ? "" : "#" + causes.id));
   }
   sections.push_back(shown_section("warning", "", first_warning(warnings)));
   sections.push_back(sizes_section(a, std::move(panels)));
@@ -378,7 +364,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   sections.push_back(comparison_section(a));
   if (!warnings.empty()) warnings.erase(warnings.begin());  // the answer shows it
   sections.push_back(warnings_section(a, std::move(warnings)));
-  sections.insert(sections.end(), diagnosed.begin(), diagnosed.end());
+  sections.push_back(std::move(causes));
   sections.push_back(citation_section(a));
   sections.push_back(inputs_section(a));
   return sections;

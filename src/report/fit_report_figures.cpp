@@ -455,7 +455,7 @@ plot::Plot capture_plot(const CaptureComparison& comparison, const Dataset& data
   return shown;
 }
 
-/// The inputs of the curves, the published values, and which curves are missing.
+/// The inputs of the curves, the published values (if any), and which curves are missing.
 Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dataset) {
   std::vector<Sentence> words = {
       say("Older models, from {W_A} = {:.3g} {J/m2} and {K} = {:.4g} GPa; those of Dahneke and "
@@ -474,9 +474,6 @@ Sentence capture_caption(const CaptureComparison& comparison, const Dataset& dat
   for (const PublishedCapture& one : comparison.published) {
     words.push_back(say("published, {} at {}: {} m/s, {}", one.what,
                         diameter_sentence(one.diameter), number(one.velocity, 3), one.source));
-  }
-  if (comparison.published.empty()) {
-    words.emplace_back("no published capture velocity for this pair");
   }
   return join(words, "; ") + ".";
 }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "diagnosis/diagnosis_result.hpp"
+#include "document/document.hpp"
+#include "report/diagnosis_report.hpp"
 #include "report/words_diagnosis.hpp"
 
 namespace recoil {
@@ -153,6 +155,24 @@ TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
   cause.delta_aicc = -50.0;
   cause.candidate.added = {"gas_film", "plastic_yield"};
   EXPECT_EQ(rival_errors(d).size(), 1U) << "two causes against one number";
+}
+
+// Two are shown; the last rows count the others, those that gain and those that do not.
+TEST(ClosestCauses, CountAllThatWereTried) {
+  Diagnosis d = answered(Adequate{});
+  for (const double change : {3.0, -1.0, -8.0, 2.0, -4.0, -2.0, 5.0}) {
+    CandidateResult tried;
+    tried.candidate.added = {change == -8.0 ? "gas_film" : "plastic_yield"};
+    tried.delta_aicc = change;
+    tried.set_aside = SetAside::predicts_no_better;
+    d.candidates.push_back(tried);
+  }
+  const Section shown = closest_causes(d);
+  const auto& table = std::get<Table>(shown.blocks.at(0).content());
+  ASSERT_EQ(table.rows.size(), 4U);
+  EXPECT_EQ(plain_text(words_of_cell(table.rows[0][0])), "gas film");
+  EXPECT_EQ(plain_text(words_of_cell(table.rows[2][0])), "2 more");
+  EXPECT_EQ(plain_text(words_of_cell(table.rows[3][0])), "3 others");
 }
 
 }  // namespace

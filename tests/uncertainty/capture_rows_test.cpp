@@ -115,7 +115,8 @@ TEST(CaptureRows, NoIntervalContainsWhatARowExcludes) {
           for (const Observation& point : fitted.data.points) {
             if (point.captured > 0) {
               // The likelihood of a capture under the curve, moved so that V* is the lower end:
-              // the square of e has the error sqrt(2) sd^2.
+              // the square of e has the error sqrt(2) sd^2. At the estimate e is 0, and the
+              // deviance 2 ln 2.
               const double e = true_restitution(curve, point.diameter,
                                                 point.velocity * v.value / *interval.lower);
               const double deviance =
