@@ -42,6 +42,14 @@ LeastSquaresOptions last_descent() {
   return options;
 }
 
+/// The options for the residuals of a simulated data set, which are only compared with others: the
+/// parameters are within a thousandth of their errors.
+LeastSquaresOptions sample_descent() {
+  LeastSquaresOptions options = last_descent();
+  options.close_enough = 1e-3;
+  return options;
+}
+
 /// The options if `descent` does not converge: the trust region of Ceres.
 LeastSquaresOptions careful_descent() {
   LeastSquaresOptions options = descent();
@@ -66,6 +74,12 @@ bool same_fit(std::span<const double> residuals, const LeastSquaresResult& fit,
   }
   const auto n = static_cast<double>(residuals.size());
   return distance <= times * negligible * fit.sum_of_squares / n;
+}
+
+/// `weights` for comparisons of models, under the stated errors of the points and of the constants.
+Weights comparing(Weights weights) {
+  weights.noise.constants_weight = 1.0;
+  return weights;
 }
 
 /// The ends of the descents from `starts`. A descent that comes near the end of an earlier one, and
@@ -382,12 +396,24 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
   return carried;
 }
 
+std::optional<std::vector<double>> residuals_of_refit(const Candidate& candidate,
+                                                      const WeightedData& sample,
+                                                      std::span<const double> near,
+                                                      const Discrepancy& discrepancy) {
+  const Weights weights = comparing(sample.weights);
+  const LeastSquaresProblem problem =
+      whitened(impact_problem(candidate.model, sample.data, weights), discrepancy);
+  std::vector<LeastSquaresResult> ends =
+      ends_of_descents(problem, {{near.begin(), near.end()}}, sample_descent());
+  if (ends.empty()) return std::nullopt;
+  ends.front().residuals.resize(sample.data.points.size());
+  return std::move(ends.front().residuals);
+}
+
 Refit refit_candidate(const Candidate& candidate, const Observations& data, const Weights& weights,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy) {
-  // Models are compared under the stated errors of the points and of the constants.
-  Weights stated = weights;
-  stated.noise.constants_weight = 1.0;
+  const Weights stated = comparing(weights);
   const LeastSquaresProblem problem =
       whitened(impact_problem(candidate.model, data, stated), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/json.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/observation.hpp"
+#include "estimate/weights.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -85,6 +87,13 @@ struct Refit {
 /// have the same label; the others keep their initial values.
 std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
                                  const ImpactModel& to);
+
+/// The residuals of the points of a simulated data set after a descent from `near`; nullopt if it
+/// fails. The parameters are within a thousandth of their errors.
+std::optional<std::vector<double>> residuals_of_refit(const Candidate& candidate,
+                                                      const WeightedData& sample,
+                                                      std::span<const double> near,
+                                                      const Discrepancy& discrepancy);
 
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
 /// catalogue advises; of these starts it follows the `tries` with the smallest deviance and, if

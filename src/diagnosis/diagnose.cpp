@@ -125,28 +125,40 @@ std::vector<std::vector<double>> effect_shapes(const SearchBase& base) {
   return shapes;
 }
 
+/// The residuals of calibrating data sets, those without a fit left out.
+struct Calibrating {
+  Samples residuals;
+  std::size_t tried = 0;
+
+  /// Goes on until `count` data sets are tried.
+  void simulate(const SearchBase& base, std::size_t count, Progress& progress) {
+    std::vector<std::optional<std::vector<double>>> answers(count - tried);
+    parallel_over(answers.size(), base.options.threads, [&](std::size_t b) {
+      answers[b] = residuals_of_sample(base, tried + b);
+      progress.advance();
+    });
+    tried = count;
+    for (auto& answer : answers) {
+      if (answer) residuals.push_back(std::move(*answer));
+    }
+  }
+};
+
 /// Step 1: tests whether the base model leaves structure.
 /// @return the residuals of the calibrating data sets [points x data sets]
 Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const StructureStatistics statistics(base.fitted.data, base.fitted.weights, base.first,
                                        base.fitted.prediction_squared, effect_shapes(base));
-  const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
-  std::vector<std::optional<std::vector<double>>> answers(count);
-  parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
-    answers[b] = residuals_of_sample(base, b);
-    progress.advance();
-  });
-  Samples simulated;
-  Eigen::MatrixXd residuals(static_cast<Eigen::Index>(base.fitted.data.points.size()),
-                            static_cast<Eigen::Index>(count));
-  for (auto& answer : answers) {
-    if (!answer) continue;
-    residuals.col(static_cast<Eigen::Index>(simulated.size())) =
-        Eigen::Map<const Eigen::VectorXd>(answer->data(), residuals.rows());
-    simulated.push_back(std::move(*answer));
+  const DiagnosisOptions& options = diagnosis.options;
+  Calibrating simulated;
+  for (const int count :
+       {std::min(options.first_simulated, options.simulated), options.simulated}) {
+    simulated.simulate(base, static_cast<std::size_t>(count), progress);
+    diagnosis.structure =
+        judge_structure(statistics, base.first.residuals, statistics(simulated.residuals));
+    if (diagnosis.structure.p_value > options.clearly_above) break;
   }
-  diagnosis.structure = judge_structure(statistics, base.first.residuals, statistics(simulated));
-  diagnosis.structure.failed = static_cast<int>(count - simulated.size());
+  diagnosis.structure.failed = static_cast<int>(simulated.tried - simulated.residuals.size());
   diagnosis.free_form = statistics.free_form(base.first.residuals);
   diagnosis.free_form_p = diagnosis.structure.p_value;
   if (!diagnosis.free_form.empty()) {
@@ -156,7 +168,13 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
     }
     diagnosis.free_form_p = quick_p_value(base, without);
   }
-  return residuals.leftCols(static_cast<Eigen::Index>(simulated.size()));
+  Eigen::MatrixXd residuals(static_cast<Eigen::Index>(base.fitted.data.points.size()),
+                            static_cast<Eigen::Index>(simulated.residuals.size()));
+  for (Eigen::Index b = 0; b < residuals.cols(); ++b) {
+    residuals.col(b) = Eigen::Map<const Eigen::VectorXd>(
+        simulated.residuals[static_cast<std::size_t>(b)].data(), residuals.rows());
+  }
+  return residuals;
 }
 
 bool beyond_a_sharp_limit(const CandidateResult& c) {

@@ -12,6 +12,11 @@ struct DiagnosisOptions {
   /// Number of data sets, simulated with the base model, that calibrate the tests of the residuals
   /// and the gains of causes.
   int simulated = 399;
+  /// A sequential test (Besag & Clifford 1991, Biometrika 78:301): after this many of them, the
+  /// rest is not simulated if the p-value is above `clearly_above`. If the p-value of all were at
+  /// `level`, that would happen once in ten million diagnoses (binomial).
+  int first_simulated = 99;
+  double clearly_above = 0.2;
   /// Level of the test for structure: the fraction of data sets in which a correct model whose
   /// losses have the allowed error is rejected, if the stated deviations are right. Without that
   /// error it is rejected less often.

@@ -189,12 +189,9 @@ WeightedData simulate_base(const SearchBase& base, std::uint64_t index) {
 std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base,
                                                        std::uint64_t index) {
   using Answer = std::optional<std::vector<double>>;
-  const auto make = [&]() -> Answer {
-    const WeightedData sample = simulate_base(base, index);
-    Refit refit = refit_candidate(base.candidate, sample.data, sample.weights, base.first.theta, 0,
-                                  base.first.discrepancy);
-    if (!refit.usable) return std::nullopt;
-    return std::move(refit.residuals);
+  const auto make = [&] {
+    return residuals_of_refit(base.candidate, simulate_base(base, index), base.first.theta,
+                              *base.first.discrepancy);
   };
   const auto write = [](const Answer& answer) { return row_json(calibration_row(answer)); };
   const auto read = [&](const Json& row) -> Answer {

@@ -1,11 +1,55 @@
-// The gains by chance, found to first order, beside those of whole refits.
+// The data sets by which a diagnosis is calibrated: how many, how exactly, and the gains by chance,
+// found to first order, beside those of whole refits.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/trial.hpp"
+#include "report/result_json.hpp"
 #include "search_with_exact_laws.hpp"
 
 namespace recoil {
 namespace {
+
+TEST_F(SearchWithExactLaws, RefitsOfSamplesAreWithinAThousandthOfTheErrors) {
+  const double moving = static_cast<double>(base_->first.moving_slots().size());
+  for (std::uint64_t b = 0; b < 40; ++b) {
+    const std::vector<double> found = residuals_of_sample(*base_, b).value();
+    const auto [sample, weights] = simulate_base(*base_, b);
+    const Refit exact = refit_candidate(base_->candidate, sample, weights, base_->first.theta, 0);
+    ASSERT_EQ(found.size(), exact.residuals.size());
+    double apart = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      apart += std::pow(found[i] - exact.residuals[i], 2);
+    }
+    // An error of z standard errors in every parameter moves the residuals by z sqrt(parameters).
+    EXPECT_LT(std::sqrt(apart), 1e-3 * std::sqrt(moving)) << b;
+  }
+}
+
+Diagnosis diagnosed(double dip, int first_simulated) {
+  Dataset data = synthetic::dataset({.velocities = {4.0, 6.5, 9.0, 12.0, 18.0, 25.0, 50.0, 90.0}});
+  for (ImpactPoint& point : data.points) {
+    const double away = std::log(point.incident_velocity / 18.0) / 0.4;
+    point.restitution -= dip * std::exp(-0.5 * away * away);
+  }
+  DiagnosisOptions options;
+  options.single_causes = true;
+  options.first_simulated = first_simulated;
+  return diagnose(synthetic::spec(), {data}, options);
+}
+
+TEST(Calibration, EndsEarlyOnlyWhereNothingIsHidden) {
+  const Diagnosis nothing = diagnosed(0.0, 99);
+  EXPECT_EQ(nothing.structure.simulated, 99);
+  EXPECT_GT(nothing.structure.p_value, 0.2);
+  EXPECT_EQ(nothing.verdict(), diagnosed(0.0, 399).verdict());
+  const Diagnosis dip = diagnosed(0.12, 99);
+  EXPECT_EQ(dip.structure.simulated, 399);
+  EXPECT_LT(dip.structure.p_value, 0.05);
+  EXPECT_TRUE(diagnosis_json(dip) == diagnosis_json(diagnosed(0.12, 399)));
+}
 
 TEST_F(SearchWithExactLaws, GainsByChanceAreThoseOfRefits) {
   const std::size_t n = base_->fitted.data.points.size();
