@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "estimate/likelihood.hpp"
 #include "report/format.hpp"
+#include "report/result_entries.hpp"
 #include "report/result_json.hpp"
 #include "report/words_verdict.hpp"
 

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "data/dataset.hpp"
 #include "document/document.hpp"
-#include "json/fit_file.hpp"
+#include "estimate/law_average.hpp"
 #include "predict/law_choice.hpp"
 
 /// Comparison of fits of the same data.
@@ -18,7 +20,7 @@ struct ComparedQuantity {
   std::string unit;
   double value = 0.0;
   bool free = true;
-  std::optional<Ends> interval = {};  ///< the recommended interval
+  std::optional<std::array<double, 2>> interval = {};  ///< the recommended interval
   RECOIL_FIELDS(name, unit, value, free, interval)
 };
 

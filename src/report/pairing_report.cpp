@@ -11,6 +11,7 @@
 #include "data/text.hpp"
 #include "document/terminal.hpp"
 #include "experiment/flight.hpp"
+#include "json/printed_results.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 

@@ -11,6 +11,7 @@
 #include "data/datapackage.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "json/printed_results.hpp"
 #include "predict/validity.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"

@@ -12,6 +12,7 @@
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
+#include "report/result_entries.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 

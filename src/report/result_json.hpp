@@ -1,59 +1,19 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/analysis.hpp"
-#include "coverage/coverage.hpp"
 #include "coverage/posterior_check.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
-#include "json/diagnosis_file.hpp"
-#include "json/fit_file.hpp"
-#include "json/printed_results.hpp"
 #include "predict/simulated_impact.hpp"
 #include "report/comparison_report.hpp"
 
 /// The JSON files of results. Missing numbers are null, if possible with a reason.
 namespace recoil {
-
-DatasetEntry dataset_entry(const Dataset& dataset);
-
-DatasetReference dataset_reference(const Dataset& dataset);
-
-/// One check of the limits of the model; its dataset is left empty.
-ValidityEntry validity_entry(const Validity& check);
-
-OrNull<LawErrorFound> law_error_found(const std::optional<LawErrorEstimate>& laws);
-
-/// The ends of an interval; nullopt unless both exist and are finite.
-std::optional<Ends> ends_of(const Interval& interval);
-
-/// Statistics of e that do not depend on a model.
-struct RestitutionEntries {
-  std::vector<RestitutionMeanEntry> means;
-  std::vector<RestitutionRangeEntry> ranges;
-  VelocityDependenceEntry velocity;
-  SeriesDifferEntry series;
-};
-RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets,
-                                       const ImpactModel& model);
-
-/// Sets these statistics in `file`, a FitFile or DiagnosisFile.
-template <class File>
-void set_restitution(File& file, const std::vector<Dataset>& datasets, const ImpactModel& model) {
-  RestitutionEntries entries = restitution_entries(datasets, model);
-  file.restitution_range = std::move(entries.ranges);
-  file.restitution_summary = std::move(entries.means);
-  file.velocity_dependence = std::move(entries.velocity);
-  file.series_differ = std::move(entries.series);
-}
-
-/// The verdict on the model, as fit.json and diagnosis.json state it.
-FitFile::ModelVerdictFound model_verdict_of(const FitResult& fitted);
 
 /// The content of fit.json. @pre analysis.fitted.usable
 std::string fit_json(const Analysis& analysis);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/units.hpp"
+#include "report/result_entries.hpp"
 #include "report/result_json.hpp"
 #include "report/words_candidate.hpp"
 #include "report/words_diagnosis.hpp"

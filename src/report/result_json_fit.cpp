@@ -13,6 +13,7 @@
 #include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
+#include "report/result_entries.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"

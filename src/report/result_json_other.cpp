@@ -5,6 +5,7 @@
 #include "core/program.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "report/result_entries.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
