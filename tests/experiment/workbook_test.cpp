@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <zip.h>
 
-#include <chrono>
+#include <ctime>
 #include <string>
 #include <utility>
 #include <vector>
@@ -224,7 +224,7 @@ TEST(Workbook, ASmallFileTakesNeitherMemoryNorTime) {
        "number-rows-repeated='1000000'><table-cell value-type='float' value='1' "
        "number-columns-repeated='16000'/></table-row></table></spreadsheet></body>"
        "</d:document-content>"}};
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of this process
   for (const Parts& parts : {xlsx("<row r='2000000000'><c><v>1</v></c></row>"), xlsx(wide),
                              xlsx("<row r='1'><c "
                                   "r='XFD1'><v>1</v></c></row>" +
@@ -234,7 +234,7 @@ TEST(Workbook, ASmallFileTakesNeitherMemoryNorTime) {
   }
   EXPECT_EQ(read(laughs).table, "\"&h;\"\n");
   EXPECT_EQ(read(xlsx(one)).table, "1\n");  // its dimension is a lie
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  EXPECT_LT(std::clock() - begin, 60 * CLOCKS_PER_SEC);
 }
 
 TEST(Workbook, IsImported) {

@@ -147,9 +147,32 @@ Sentence study_words(const CoverageStudy& study) {
   return words;
 }
 
-Sentence failures_words(const CoverageStudy::Design& design) {
-  Sentence words = code(design.id) + Sentence(": ") + truth_words(design.truth);
-  return words + say("; {} fits and {} refits failed", design.fits_failed, design.refits_failed);
+bool is_of_laws(const CoverageStudy& study) { return study.stamp.study == "coverage-laws"; }
+
+/// Of studies that are not of a grid of designs.
+Sentence subject_of(const CoverageStudy& study) {
+  if (is_of_laws(study)) return "laws that are wrong";
+  return study.sources.empty() ? Sentence("noise that is hard to know")
+                               : Sentence("the designs of the fits") + with_materials(study);
+}
+
+/// How `bent_truth` makes the data sets.
+Sentence laws_words() {
+  return "The independent simulator makes the impacts at known dampings. It multiplies the loss of "
+         "every impact by 1 + g, whose largest size is 1, 3 or 10 %. By velocity: g is a wave of "
+         "ln "
+         "V, the same for all sizes. By size: every size has a wave of its own. Near capture: g "
+         "falls as 1 / V². Phase and sign are drawn for every data set. Or the impacts are those "
+         "of "
+         "JKR. True are the dampings of the simulator, and the capture velocity at which its "
+         "spheres "
+         "stick.";
+}
+
+Sentence failures_words(const CoverageStudy::Design& design, bool with_truth) {
+  Sentence words = code(design.id) + Sentence(": ");
+  if (with_truth) words += truth_words(design.truth) + Sentence("; ");
+  return words + say("{} fits and {} refits failed", design.fits_failed, design.refits_failed);
 }
 
 bool is_warned(CoverageVerdict verdict) {
@@ -327,10 +350,9 @@ const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& r
 Document page_of(const CoverageStudy& study) {
   Document page;
   page.heading = study.grid_of ? Sentence("Coverage by kind of data: ") + code(*study.grid_of)
-                 : study.sources.empty()
-                     ? Sentence("Coverage for noise that is hard to know")
-                     : Sentence("Coverage for the designs of the fits") + with_materials(study);
+                               : Sentence("Coverage for ") + subject_of(study);
   page.foreword.emplace_back(Paragraph{study_words(study)});
+  if (is_of_laws(study)) page.foreword.emplace_back(Paragraph{laws_words()});
   page.foreword.emplace_back(
       Paragraph{as_sentence(tally_words(tally_of(study.rows))) + " " + meaning_of_nominal()});
   if (const auto words = verdict_words(study.rows)) {
@@ -339,7 +361,8 @@ Document page_of(const CoverageStudy& study) {
   if (!study.grid_of) {
     List designs;
     for (const CoverageStudy::Design& design : study.designs) {
-      designs.entries.push_back(failures_words(design));
+      if (is_of_laws(study) && design.fits_failed + design.refits_failed == 0) continue;
+      designs.entries.push_back(failures_words(design, !is_of_laws(study)));
     }
     page.foreword.emplace_back(std::move(designs));
   }
@@ -370,7 +393,8 @@ Document coverage_summary(const std::vector<CoverageStudy>& studies) {
       continue;
     }
     Section section{study.stamp.study.substr(std::string("coverage-").size()),
-                    study.sources.empty()
+                    is_of_laws(study) ? Sentence("Laws that are wrong")
+                    : study.sources.empty()
                         ? Sentence("Noise that is hard to know")
                         : Sentence("The shipped designs") + with_materials(study)};
     section.blocks = {Paragraph{say("{} data sets each (", study.datasets) +
