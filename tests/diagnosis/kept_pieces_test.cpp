@@ -8,6 +8,7 @@
 #include "core/resumable.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/trial.hpp"
+#include "json/diagnosis_file.hpp"
 #include "report/result_json.hpp"
 #include "support/synthetic.hpp"
 #include "support/temporary_folder.hpp"

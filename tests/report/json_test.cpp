@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "example_analysis.hpp"
+#include "json/fit_file.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {
